@@ -337,7 +337,7 @@ impl Candidates {
         self.admitted = close.iter().map(ContactPair::key).zip(distances).collect();
     }
 
-    /// Two triangles among those that started in touch that cross each other on the straight path between two states, at
+    /// Two triangles among those that started in touch that cross or overlap each other on the straight path between two states, at
     /// its end or at one of the instants tried before.
     pub(super) fn crossing_in_touch(&self, from: &[DVec3], to: &[DVec3]) -> Option<[u32; 2]> {
         if self.in_touch.is_empty() {
@@ -347,7 +347,9 @@ impl Candidates {
             let t = f64::from(k) / f64::from(INSTANTS);
             let between: Vec<DVec3> = from.iter().zip(to).map(|(a, b)| a.lerp(*b, t)).collect();
             let mut in_touch = self.in_touch.iter().copied();
-            in_touch.find(|&faces| self.primitives.cross(faces, &between))
+            in_touch.find(|&faces| {
+                self.primitives.cross(faces, &between) || self.primitives.overlap(faces, &between)
+            })
         })
     }
 

@@ -14,6 +14,8 @@ use crate::Model;
 
 /// Crossings shallower than this, in unit lengths, are rounding.
 const ROUNDING: f64 = 1e-9;
+/// Triangles in one plane overlap where they do by more than this along every axis, in unit lengths.
+const OVERLAP: f64 = 1e-6;
 
 pub(super) struct Primitives {
     faces: Vec<[u32; 3]>,
@@ -129,6 +131,11 @@ impl Primitives {
         pairs.filter(|[a, b]| a != b).collect()
     }
 
+    /// Whether the triangles lie in one plane and overlap there.
+    pub(super) fn overlap(&self, faces: [u32; 2], positions: &[DVec3]) -> bool {
+        overlap(faces.map(|face| self.faces[face as usize].map(|v| positions[v as usize])))
+    }
+
     /// Whether a side of one triangle passes through the other: through its inside, or through a side beyond which the
     /// sheet goes on. For triangles that share a vertex also, whether they cross around it.
     pub(super) fn cross(&self, faces: [u32; 2], positions: &[DVec3]) -> bool {
@@ -148,6 +155,25 @@ impl Primitives {
             })
         })
     }
+}
+
+/// Whether the triangles lie in one plane, but for rounding, and overlap there: facets that do lie neither above nor
+/// below each other. They do unless the normal of a side separates them (Ericson 2005, section 5.2.1).
+fn overlap([first, second]: [[DVec3; 3]; 2]) -> bool {
+    let [a, b, c] = first;
+    let normal = (b - a).cross(c - a).normalize_or_zero();
+    let is_flat = second.iter().all(|&p| normal.dot(p - a).abs() <= ROUNDING);
+    let sides = |[a, b, c]: [DVec3; 3]| [b - a, c - b, a - c];
+    let depth = |side: DVec3| {
+        let axis = normal.cross(side).normalize_or_zero();
+        let range = |corners: [DVec3; 3]| {
+            let [p, q, r] = corners.map(|corner| axis.dot(corner));
+            (p.min(q).min(r), p.max(q).max(r))
+        };
+        let ((low, high), (other_low, other_high)) = (range(first), range(second));
+        (high - other_low).min(other_high - low)
+    };
+    is_flat && sides(first).into_iter().chain(sides(second)).all(|side| depth(side) > OVERLAP)
 }
 
 /// The facet turned so that `vertex` comes first, with whether the sheet goes on beyond its sides; `None` if it is not
@@ -245,5 +271,15 @@ mod tests {
         assert!(primitives([3, 4, 0]).cross([0, 1], &positions));
         assert!(primitives([4, 0, 3]).cross([1, 0], &positions));
         assert!(!primitives([4, 5, 0]).cross([0, 1], &positions));
+    }
+
+    #[test]
+    fn triangles_overlap_in_one_plane_only() {
+        let v = DVec3::new;
+        let first = [v(0.0, 0.0, 0.0), v(1.0, 0.0, 0.0), v(0.0, 1.0, 0.0)];
+        let moved = |by: DVec3| first.map(|p| v(1.0 - p.x, -p.y, 0.0) + by);
+        assert!(!overlap([first, moved(v(0.0, 0.0, 0.0))]), "they share a side");
+        assert!(!overlap([first, moved(v(0.0, 0.3, 1e-3))]), "one lies above the other");
+        assert!(overlap([first, moved(v(-0.1, 0.3, 0.0))]));
     }
 }
