@@ -34,7 +34,7 @@ impl Closing {
     }
 
     /// The latest end of a load step from `s`.
-    pub(super) fn latest_end(&self, s: f64) -> f64 {
+    pub(super) fn latest_end(s: f64) -> f64 {
         let half = 0.5 * (1.0 - s);
         if half > LAST_STEP { s + half } else { 1.0 }
     }
@@ -62,11 +62,10 @@ mod tests {
 
     #[test]
     fn load_steps_halve_what_is_left_until_little_is() {
-        let closing = Closing::new(Stage::Fold, 1e-3, 1e-5).unwrap();
         let mut s = 0.0;
         let mut steps = 0;
         while s < 1.0 {
-            s = closing.latest_end(s);
+            s = Closing::latest_end(s);
             steps += 1;
         }
         assert_eq!(steps, 8);

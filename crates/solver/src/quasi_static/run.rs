@@ -171,7 +171,7 @@ impl Run<'_> {
         while let Some(&goal) = goals.get(recorded) {
             let (mut next, mut reaches) = control.next(s, goal);
             if let Some(closing) = closing.filter(|_| self.follows_targets()) {
-                let latest = closing.latest_end(s);
+                let latest = Closing::latest_end(s);
                 (next, reaches) = (next.min(latest), reaches && next <= latest);
                 self.close_to(closing.gap_at(next));
             }

@@ -141,15 +141,32 @@ impl Study {
         }
     }
 
+    pub(super) fn skin_report(&self, positions: &[DVec3]) -> Option<SkinReport> {
+        let units = &self.subject.units()?.units;
+        let exact = units.compact();
+        let fit = RigidMotion::best_fit(positions, &exact);
+        let fitted: Vec<DVec3> = positions.iter().map(|&p| fit.apply(p)).collect();
+        let tolerance = SKIN_TOLERANCE * units.unit.flap;
+        let (measured, exact) = (units.skin(&fitted, tolerance)?, units.skin(&exact, tolerance)?);
+        Some(SkinReport {
+            tolerance: SKIN_TOLERANCE,
+            upper: measured.upper.into(),
+            lower: measured.lower.into(),
+            exact_upper: exact.upper.into(),
+            exact_lower: exact.lower.into(),
+        })
+    }
+}
+
+impl CompactReport {
     /// Why an extent differs from the closed form by more than [`LARGE_ERROR`].
     pub(super) fn explanation(
         &self,
-        compact: &CompactReport,
         outcome: &Outcome,
         fold_angles: &FoldAngleReport,
         gap_reached: Option<f64>,
     ) -> Option<String> {
-        let error = compact.relative_error?;
+        let error = self.relative_error?;
         let is_large = |axis: &usize| error.extents[*axis].abs() > LARGE_ERROR;
         let axes: Vec<&str> = (0..3).filter(is_large).map(|axis| ["x", "y", "z"][axis]).collect();
         if axes.is_empty() {
@@ -169,21 +186,5 @@ impl Study {
             "{axes}: {gap}, and {}, which adds up over the length of the sheet",
             fold_angles.words()
         ))
-    }
-
-    pub(super) fn skin_report(&self, positions: &[DVec3]) -> Option<SkinReport> {
-        let units = &self.subject.units()?.units;
-        let exact = units.compact();
-        let fit = RigidMotion::best_fit(positions, &exact);
-        let fitted: Vec<DVec3> = positions.iter().map(|&p| fit.apply(p)).collect();
-        let tolerance = SKIN_TOLERANCE * units.unit.flap;
-        let (measured, exact) = (units.skin(&fitted, tolerance)?, units.skin(&exact, tolerance)?);
-        Some(SkinReport {
-            tolerance: SKIN_TOLERANCE,
-            upper: measured.upper.into(),
-            lower: measured.lower.into(),
-            exact_upper: exact.upper.into(),
-            exact_lower: exact.lower.into(),
-        })
     }
 }

@@ -143,7 +143,7 @@ impl Study {
         let fold_angles = folded.fold_angles;
         let mut compact = self.compact_report(&folded.compact, folded.motion.frames.last());
         compact.explanation =
-            self.explanation(&compact, &folded.outcome, &fold_angles, computed.gap_reached);
+            compact.explanation(&folded.outcome, &fold_angles, computed.gap_reached);
         Report {
             title: self.title.clone(),
             version: VERSION.to_owned(),
