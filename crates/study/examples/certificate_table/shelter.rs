@@ -36,7 +36,7 @@ fn with_contact() -> Table {
         }
     }
     Table {
-        title: "With contact (gap 1e-3 h). Separation in units of h, with the motion time at which it is smallest."
+        title: "With contact (gap 1e-3 h, 1e-5 h in the end). Separation in units of h, with the motion time at which it is smallest."
             .to_owned(),
         columns: [
             &["case", "material", "schedule"],
