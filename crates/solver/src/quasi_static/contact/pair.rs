@@ -97,6 +97,16 @@ impl ContactPair {
         (low - other_high).max(other_low - high).max(DVec3::ZERO).length()
     }
 
+    /// By how much the first of the two lies further along the unit vector `along` than the second.
+    #[inline]
+    pub(super) fn separation_along(&self, along: DVec3, x: &[DVec3; 4]) -> f64 {
+        let [a, b, c, d] = x.map(|corner| along.dot(corner));
+        match self.kind {
+            PairKind::VertexFacet => a - b.max(c).max(d),
+            PairKind::EdgeEdge => a.min(b) - c.max(d),
+        }
+    }
+
     /// A bound of how fast the distance changes while the corners move at the velocities `d`.
     #[inline]
     pub(super) fn speed(&self, d: &[DVec3; 4]) -> f64 {
