@@ -106,6 +106,51 @@ fn the_gap_is_kept_in_every_frame_and_between() {
 }
 
 #[test]
+fn a_gap_of_any_size_that_the_facets_can_close_to_is_kept() {
+    let scene = scene(unit(Case::E), 1, 1, 20.0, 0.0);
+    for gap in [1e-6, 1e-4, 1e-2, 4e-2] {
+        let run = run(&scene, &with_gap(gap, 24));
+        let last = run.frames.last().unwrap();
+        let least = smallest_distance(&scene, &last.positions);
+        assert!(last.time == 2.0 && least > 0.99 * gap, "{gap}: {least}");
+    }
+}
+
+#[test]
+fn layers_close_to_the_final_gap_and_the_closed_form() {
+    for (case, stiffness) in [(Case::E, 20.0), (Case::S, 20.0), (Case::SII, 20_000.0)] {
+        let scene = scene(unit(case), 3, 2, stiffness, 0.4);
+        let options = QuasiStaticOptions {
+            contact: Some(Contact { gap: 1e-3, final_gap: 1e-5 }),
+            ..with_gap(1e-3, 60)
+        };
+        let run = run(&scene, &options);
+        assert!(run.is_complete(), "{case:?}: {:?}", run.jam);
+        assert!((run.gap_reached.unwrap() - 1e-5).abs() < 1e-12, "{case:?}");
+        let last = run.frames.last().unwrap();
+        let least = smallest_distance(&scene, &last.positions);
+        assert!(least > 0.9e-5 && least < 2e-5, "{case:?}: {least}");
+        let exact = scene.sheet.compact();
+        let exact = exact.iter().copied().reduce(DVec3::max).unwrap()
+            - exact.iter().copied().reduce(DVec3::min).unwrap();
+        let error = (extents(&scene, last) - exact).abs().max_element();
+        assert!(error < 1e-3, "{case:?}: {error}");
+    }
+}
+
+#[test]
+fn a_final_gap_that_is_none_or_above_the_gap_is_refused() {
+    let scene = scene(unit(Case::S), 1, 1, 20.0, 0.0);
+    for final_gap in [0.0, -1.0, 2e-3, f64::NAN] {
+        let contact = Some(Contact { gap: 1e-3, final_gap });
+        let options = QuasiStaticOptions { contact, ..with_gap(1e-3, 4) };
+        let result =
+            run_quasi_static(&scene.model, &scene.schedule, &scene.deployed, &options, &|_| true);
+        assert!(matches!(result, Err(SolverError::FinalGap { .. })), "{final_gap}");
+    }
+}
+
+#[test]
 fn without_contact_the_same_layers_come_closer_than_the_gap() {
     let scene = scene(unit(Case::S), 3, 1, 20.0, 0.4);
     let free = QuasiStaticOptions { contact: None, ..with_gap(1e-3, 60) };

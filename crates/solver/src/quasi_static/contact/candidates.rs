@@ -159,7 +159,7 @@ impl Candidates {
             return;
         }
         let reach = largest(displacement);
-        let margin = (2.0 * reach).clamp(MARGIN_IN_GAPS * self.gap, MARGIN).max(self.margin);
+        let margin = (2.0 * reach).min(MARGIN).max(MARGIN_IN_GAPS * self.gap).max(self.margin);
         let (mut pairs, least) = self.search(positions, displacement, WITHIN * self.gap + margin);
         self.searched_path =
             SearchedPath { from: positions.to_vec(), displacement: displacement.to_vec(), margin };
