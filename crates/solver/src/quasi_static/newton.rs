@@ -198,8 +198,8 @@ impl<'a> Newton<'a> {
 
     fn energy(&mut self, state: &Configuration, targets: &[f64]) -> f64 {
         let elastic = self.model.energy_by_kind(&state.positions, &state.angles, targets).total();
-        let barrier = self.contact.as_ref().map(|c| c.energy(&state.positions));
-        elastic + barrier.unwrap_or(0.0)
+        let contact = self.contact.as_ref().map(|c| c.energy(&state.positions));
+        elastic + contact.unwrap_or(0.0)
     }
 
     fn gradient(&mut self, state: &Configuration, targets: &[f64]) -> Vec<DVec3> {
@@ -300,10 +300,12 @@ impl<'a> Newton<'a> {
             step.advance(share, &ahead);
             let changed = contact.activate(&step.direction);
             let is_least = (share == 1.0 && !changed) || share < LEAST_ADVANCE;
-            if is_least && !contact.foresee(x, &step.direction, largest(&step.direction)) {
-                break;
+            if is_least {
+                if !contact.foresee(x, &step.direction, largest(&step.direction)) {
+                    break;
+                }
+                contact.activate(&step.direction);
             }
-            contact.activate(&step.direction);
         }
         Ok(Some(step.direction))
     }
@@ -391,7 +393,7 @@ impl<'a> Newton<'a> {
         is_definite
     }
 
-    /// Assembles K + S; returns the mean diagonal of K without barriers.
+    /// Assembles K + S; returns the mean diagonal of K without contact.
     fn assemble(
         &mut self,
         state: &Configuration,

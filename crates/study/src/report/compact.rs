@@ -123,11 +123,12 @@ impl Study {
     pub(super) fn compact_report(
         &self,
         measured: &FittedBox,
+        thick: Option<&BoxReport>,
         last: Option<&Frame>,
     ) -> CompactReport {
         let h = self.subject.sheet().unit_length;
         let closed_form = self.subject.closed_form();
-        let thick = self.thick_closed_form().map(|form| form.extents);
+        let thick = thick.map(|form| form.extents);
         let extents = thick.or(closed_form.map(|form| form.extents));
         let error = extents.map(|extents| ErrorReport::new(measured, extents, h));
         CompactReport {

@@ -141,7 +141,9 @@ impl Study {
         let sheet = units.map(|study| &study.units);
         let Folded { computed, findings, .. } = folded;
         let fold_angles = folded.fold_angles;
-        let mut compact = self.compact_report(&folded.compact, folded.motion.frames.last());
+        let thick = self.thick_closed_form();
+        let last = folded.motion.frames.last();
+        let mut compact = self.compact_report(&folded.compact, thick.as_ref(), last);
         compact.explanation =
             compact.explanation(&folded.outcome, &fold_angles, computed.gap_reached);
         Report {
@@ -160,7 +162,7 @@ impl Study {
             division: units.map(division_report),
             pattern: self.pattern_report(),
             closed_form: self.subject.closed_form().map(BoxReport::from),
-            thick_closed_form: self.thick_closed_form(),
+            thick_closed_form: thick,
             compact,
             unfold: units.map(|study| unfold_report(&study.unfolding)),
             stages: computed.stages.iter().map(|s| stage_report(s, &findings.series)).collect(),

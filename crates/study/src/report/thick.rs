@@ -14,7 +14,7 @@ impl Study {
     /// without `material.thickness`, without a closed form, and for a map, whose closed form has its thickness.
     ///
     /// Extents are those of the middle surfaces of the layers: m layers that lie on each other add (m − 1) thicknesses.
-    pub fn thick_closed_form(&self) -> Option<BoxReport> {
+    pub(super) fn thick_closed_form(&self) -> Option<BoxReport> {
         let thickness = self.thickness?;
         let units = self.subject.units().filter(|study| study.units.map_layers().is_none())?;
         let closed_form: CompactBox = self.subject.closed_form()?;

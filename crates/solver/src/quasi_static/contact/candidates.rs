@@ -6,13 +6,12 @@ use foldmotion_geometry::collide::Tree;
 use glam::DVec3;
 
 use super::super::configuration::{dot, largest};
-use super::closest::Closest;
 use super::near::NearPairs;
 use super::pair::{ContactPair, PairKind};
 use super::plane::Plane;
 use super::primitives::Primitives;
 use super::step_limit::step_limit;
-use crate::{Model, SolverError};
+use crate::SolverError;
 
 /// Pairs closer than this share of the gap at the start count as in touch.
 const TOUCHING: f64 = 1e-3;
@@ -36,7 +35,6 @@ pub(super) struct Candidates {
     primitives: Primitives,
     tree: Tree,
     gap: f64,
-    smallest_height: f64,
     triangles: usize,
     /// The largest distance so far of the pairs that do not keep the whole gap yet.
     admitted: BTreeMap<(PairKind, [u32; 4]), f64>,
@@ -73,19 +71,20 @@ impl SearchedPath {
 }
 
 impl Candidates {
-    /// The candidates of `model` that keep `gap`, from `start` (unit lengths) on.
+    /// The candidates among `primitives` that keep `gap`, from `start` (unit lengths) on.
     ///
     /// # Errors
     /// [`SolverError::StartCrosses`].
-    pub(super) fn new(model: &Model, gap: f64, start: &[DVec3]) -> Result<Self, SolverError> {
-        let primitives = Primitives::new(model);
-        let smallest_height = primitives.smallest_height(start);
+    pub(super) fn new(
+        primitives: Primitives,
+        gap: f64,
+        start: &[DVec3],
+    ) -> Result<Self, SolverError> {
         let boxes = primitives.boxes(start, &[], 0.0);
         let mut candidates = Self {
             tree: Tree::new(&boxes),
             gap,
-            smallest_height,
-            triangles: model.faces.len(),
+            triangles: boxes.len(),
             admitted: BTreeMap::new(),
             in_touch: Vec::new(),
             pairs: Vec::new(),
@@ -104,10 +103,6 @@ impl Candidates {
 
     pub(super) fn gap(&self) -> f64 {
         self.gap
-    }
-
-    pub(super) fn smallest_height(&self) -> f64 {
-        self.smallest_height
     }
 
     pub(super) fn searches(&self) -> usize {
@@ -361,14 +356,5 @@ impl Candidates {
             .into_iter()
             .map(|(a, b)| [a, b])
             .find(|&faces| self.primitives.cross(faces, positions))
-    }
-}
-
-impl PairKind {
-    fn closest(self, x: &[DVec3; 4]) -> Closest {
-        match self {
-            Self::VertexFacet => Closest::vertex_facet(x),
-            Self::EdgeEdge => Closest::edge_edge(x),
-        }
     }
 }

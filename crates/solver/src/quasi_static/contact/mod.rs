@@ -29,6 +29,7 @@ use glam::DVec3;
 
 use self::candidates::Candidates;
 use self::plane::{Form, Plane};
+use self::primitives::Primitives;
 use super::configuration::dot;
 use super::model_step::ModelStep;
 use super::stiffness_matrix::StiffnessMatrix;
@@ -72,6 +73,7 @@ impl Default for Contact {
 /// The forces between the layers of a sheet, and the candidates for them.
 pub(super) struct ContactField {
     candidates: Candidates,
+    smallest_height: f64,
     planes: Vec<Plane>,
     /// κ g, a force.
     force: f64,
@@ -88,16 +90,18 @@ impl ContactField {
         force: f64,
         start: &[DVec3],
     ) -> Result<Self, SolverError> {
-        let candidates = Candidates::new(model, contact.gap / KEPT, start)?;
         let Contact { gap, final_gap } = contact;
-        let maximum = LARGEST_GAP * candidates.smallest_height();
+        let primitives = Primitives::new(model);
+        let smallest_height = primitives.smallest_height(start);
+        let maximum = LARGEST_GAP * smallest_height;
         if !(gap > 0.0 && gap <= maximum) {
             return Err(SolverError::GapTooLarge { gap, maximum });
         }
         if !(final_gap > 0.0 && final_gap <= gap) {
             return Err(SolverError::FinalGap { final_gap, gap });
         }
-        Ok(Self { candidates, planes: Vec::new(), force })
+        let candidates = Candidates::new(primitives, gap / KEPT, start)?;
+        Ok(Self { candidates, smallest_height, planes: Vec::new(), force })
     }
 
     /// g.
@@ -118,7 +122,7 @@ impl ContactField {
     /// How far layers a gap apart may keep creases from their targets, in radians: several layers over the smallest
     /// height of a triangle.
     pub(super) fn fold_angle_slack(&self) -> f64 {
-        LAYERS * self.gap() / self.candidates.smallest_height()
+        LAYERS * self.gap() / self.smallest_height
     }
 
     /// The searches for candidates so far.

@@ -17,6 +17,17 @@ pub(super) enum PairKind {
     EdgeEdge,
 }
 
+impl PairKind {
+    /// The closest points of two primitives with the corners `x`.
+    #[inline]
+    pub(super) fn closest(self, x: &[DVec3; 4]) -> Closest {
+        match self {
+            Self::VertexFacet => Closest::vertex_facet(x),
+            Self::EdgeEdge => Closest::edge_edge(x),
+        }
+    }
+}
+
 /// Two primitives that share no vertex.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct ContactPair {
@@ -77,10 +88,7 @@ impl ContactPair {
 
     #[inline]
     pub(super) fn closest(&self, x: &[DVec3; 4]) -> Closest {
-        match self.kind {
-            PairKind::VertexFacet => Closest::vertex_facet(x),
-            PairKind::EdgeEdge => Closest::edge_edge(x),
-        }
+        self.kind.closest(x)
     }
 
     /// A lower bound of the distance: between the boxes of the two.

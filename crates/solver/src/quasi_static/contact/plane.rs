@@ -141,7 +141,7 @@ impl Plane {
     pub(super) fn value_at(&self, positions: &[DVec3]) -> f64 {
         let x = self.corners(positions);
         match (self.form, self.kind) {
-            (Form::Fixed, _) => self.slopes.iter().zip(x).map(|(s, x)| s.dot(x)).sum(),
+            (Form::Fixed, _) => self.change(positions),
             (_, PairKind::VertexFacet) => self.normal(&x).dot(x[0] - x[1]) * self.side,
             (_, PairKind::EdgeEdge) => self.normal(&x).dot(x[0] - x[2]) * self.side,
         }
