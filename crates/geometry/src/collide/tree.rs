@@ -69,14 +69,20 @@ impl Tree {
     /// `boxes`: those to which the tree was last fitted.
     pub fn overlapping_pairs(&self, boxes: &[Aabb]) -> Vec<(u32, u32)> {
         let mut pairs = Vec::new();
+        self.visit_overlapping(boxes, |i, j| pairs.push((i, j)));
+        pairs.sort_unstable();
+        pairs
+    }
+
+    /// Calls `visit(i, j)` for the [`overlapping_pairs`](Self::overlapping_pairs), in an order that depends on the
+    /// shape of the tree.
+    pub fn visit_overlapping(&self, boxes: &[Aabb], mut visit: impl FnMut(u32, u32)) {
         let touching = |a: &Aabb, b: &Aabb| a.overlaps(b);
         self.visit_pairs(touching, |i, j| {
             if boxes[i as usize].overlaps(&boxes[j as usize]) {
-                pairs.push((i, j));
+                visit(i, j);
             }
         });
-        pairs.sort_unstable();
-        pairs
     }
 
     /// Branch and bound: calls `measure(i, j, bound)` for pairs whose boxes are nearer than the bound it last returned.

@@ -1,9 +1,9 @@
 //! The Hessian of the bar-and-hinge energy, element by element.
 //!
-//! Bar: k (n nᵀ + (1 − l₀/l)(I − n nᵀ)), n its direction. Hinge: κ l₀ (∇θ ∇θᵀ + (θ − θ*) ∇²θ). Face angle:
+//! Bar: k (n nᵀ + (Δ/l)(I − n nᵀ)), n its direction, Δ = l − l₀ its elongation. Hinge: κ l₀ (∇θ ∇θᵀ + (θ − θ*) ∇²θ). Face angle:
 //! φ (∇α ∇αᵀ + (α − α₀) ∇²α).
 
-use glam::DMat3;
+use glam::{DMat3, DVec3};
 
 use super::Configuration;
 use super::face_angle_hessian::face_angle_hessian;
@@ -42,17 +42,18 @@ impl ElementMap {
     }
 }
 
-/// Adds the Hessian at `state` to `matrix`.
+/// Adds the Hessian at `state` to `matrix`, with the given elongations of the bars.
 pub(super) fn add_stiffness(
     model: &Model,
     state: &Configuration,
     targets: &[f64],
+    elongations: &[f64],
     curvature: Curvature,
     map: &ElementMap,
     matrix: &mut StiffnessMatrix,
 ) {
-    for (bar, element) in model.bars.iter().zip(&map.bars) {
-        if let Some(blocks) = bar_blocks(bar, state, curvature) {
+    for ((bar, element), &elongation) in model.bars.iter().zip(&map.bars).zip(elongations) {
+        if let Some(blocks) = bar_blocks(bar, state, elongation, curvature) {
             matrix.add(element, &blocks);
         }
     }
@@ -75,6 +76,31 @@ pub(super) fn add_stiffness(
     }
 }
 
+/// Δ = l − l₀ of every bar.
+pub(super) fn elongations(model: &Model, positions: &[DVec3]) -> Vec<f64> {
+    let elongation = |bar: &Bar| {
+        let [a, b] = bar.vertices.map(|v| positions[v as usize]);
+        a.distance(b) - bar.rest_length
+    };
+    model.bars.iter().map(elongation).collect()
+}
+
+/// The elongations that the state `from` foresees for `to`, to first order.
+///
+/// A step that turns a stiff bar lengthens it by the square of the turn. The force of that is gone after the next step,
+/// but in the Hessian it would stiffen or soften all that the bar can turn about; with the elongations that the step
+/// was meant to have, the next one is of the right length (the mixed-integration-point iteration of Magisano, Leonetti
+/// and Garcea 2017, "How to improve efficiency and robustness of the Newton method in geometrically non-linear
+/// structural problem discretized via displacement-based finite elements"). At equilibrium both are the same.
+pub(super) fn foreseen_elongations(model: &Model, from: &[DVec3], to: &[DVec3]) -> Vec<f64> {
+    let elongation = |bar: &Bar| {
+        let [[a, b], [new_a, new_b]] =
+            [from, to].map(|positions| bar.vertices.map(|v| positions[v as usize]));
+        (b - a).normalize_or_zero().dot(new_b - new_a) - bar.rest_length
+    };
+    model.bars.iter().map(elongation).collect()
+}
+
 /// The pairs of nodes that share an element of `model`.
 pub(super) fn coupled_nodes(model: &Model) -> Vec<[u32; 2]> {
     // The bars and the apexes of the hinges: every triangle's sides are bars.
@@ -87,14 +113,19 @@ pub(super) fn coupled_nodes(model: &Model) -> Vec<[u32; 2]> {
 }
 
 /// `None` for a bar pressed to a point, which has no direction.
-fn bar_blocks(bar: &Bar, state: &Configuration, curvature: Curvature) -> Option<[[DMat3; 2]; 2]> {
+fn bar_blocks(
+    bar: &Bar,
+    state: &Configuration,
+    elongation: f64,
+    curvature: Curvature,
+) -> Option<[[DMat3; 2]; 2]> {
     let [a, b] = bar.vertices.map(|v| state.positions[v as usize]);
     let along = b - a;
     let length = along.length();
     if length == 0.0 {
         return None;
     }
-    let slack = 1.0 - bar.rest_length / length;
+    let slack = elongation / length;
     let across = match curvature {
         Curvature::Exact => slack,
         Curvature::Convex => slack.max(0.0),
@@ -130,12 +161,10 @@ fn face_blocks(
 
 #[cfg(test)]
 mod tests {
-    use foldmotion_pattern::{Case, Unit, UnitSheet};
-    use glam::DVec3;
-
     use super::*;
     use crate::Material;
     use crate::quasi_static::configuration::largest;
+    use foldmotion_pattern::{Case, Unit, UnitSheet};
 
     /// How far (K + μ I)⁻¹ (K x + μ x), with K x by differences of the gradient, lies from x.
     fn error_against_differences(curvature: Curvature) -> f64 {
@@ -157,7 +186,8 @@ mod tests {
 
         let mut matrix = StiffnessMatrix::new(model.node_count(), &coupled_nodes(&model)).unwrap();
         let map = ElementMap::new(&model, &matrix);
-        add_stiffness(&model, &state, &targets, curvature, &map, &mut matrix);
+        let elongations = elongations(&model, &state.positions);
+        add_stiffness(&model, &state, &targets, &elongations, curvature, &map, &mut matrix);
         let shift = 10.0 * matrix.mean_diagonal();
         let step = 1e-6;
         let gradient_at = |length: f64| {

@@ -46,9 +46,10 @@ pub fn force_scale(model: &Model) -> f64 {
     model.material.fold_stiffness.max(model.material.facet_stiffness)
 }
 
-/// κ g of contact: ten times what hinges push with, or bars strained by a thousandth if that is more.
+/// κ g of contact: a tenth of what hinges push with, or of bars strained by a thousandth if that is more. Multipliers
+/// carry the rest: the stiffer the planes, the more rounds it takes to find which of them push.
 fn contact_force(model: &Model) -> f64 {
-    10.0 * force_scale(model).max(1e-3 * model.material.axial_stiffness)
+    0.1 * force_scale(model).max(1e-3 * model.material.axial_stiffness)
 }
 
 /// The nodal force that rounding alone may leave: positions are known to ε |x|, which bars multiply by their stiffness.

@@ -1,7 +1,7 @@
 //! Newton's method for the equilibrium of the sheet at given targets.
 //!
 //! Each step solves (K + S + μ I) d = −∇U. K is the exact Hessian where that is positive definite, elsewhere the exact
-//! one with μ > 0 or the convex one. S removes the six rigid motions: stiff springs that support one triangle of the
+//! one with μ > 0 or the convex one; its bars carry the forces that the step before foresaw. S removes the six rigid motions: stiff springs that support one triangle of the
 //! sheet statically determinately. They enter the matrix alone, never the forces; as ∇U is in balance, the step they
 //! give is an exact Newton step, with that triangle's support unmoved; of a floating sheet the rigid part of the step
 //! is then taken away, and where μ > 0 makes the matrix regular, S is left out. μ acts as inertia relative to the last
@@ -17,7 +17,9 @@ use super::Support;
 use super::configuration::{Configuration, dot, largest};
 use super::contact::ContactField;
 use super::effort::Effort;
-use super::element_stiffness::{Curvature, ElementMap, add_stiffness, coupled_nodes};
+use super::element_stiffness::{
+    Curvature, ElementMap, add_stiffness, coupled_nodes, elongations, foreseen_elongations,
+};
 use super::hinge_hessian::outer;
 use super::model_step::ModelStep;
 use super::stiffness_matrix::StiffnessMatrix;
@@ -82,6 +84,8 @@ pub(super) struct Newton<'a> {
     /// Σ k l₀² over the bars.
     bar_stiffness: f64,
     inertia: f64,
+    /// The elongations of the bars that the Hessian is made with.
+    elongations: Vec<f64>,
     /// The Hessian in the matrix, whether it is supported, and the mean of its diagonal, while the state is the one it
     /// was assembled at.
     assembled: Option<(Curvature, bool, f64)>,
@@ -114,6 +118,7 @@ impl<'a> Newton<'a> {
                 .map(|bar| bar.stiffness * bar.rest_length * bar.rest_length)
                 .sum(),
             inertia: INERTIA,
+            elongations: Vec::new(),
             assembled: None,
             chord: None,
             contact,
@@ -144,6 +149,7 @@ impl<'a> Newton<'a> {
         let mut gradient = self.gradient(state, targets);
         self.inertia = INERTIA;
         self.chord = None;
+        self.elongations = elongations(self.model, &state.positions);
         let earlier = self.factorisations;
         let mut is_near = false;
         let mut iterations = 0;
@@ -175,6 +181,8 @@ impl<'a> Newton<'a> {
             };
             is_near = step.is_last(&tolerance);
             residual = largest(&step.gradient);
+            let [from, to] = [&state.positions, &step.state.positions];
+            self.elongations = foreseen_elongations(self.model, from, to);
             *state = step.state;
             if self.contact.is_some() {
                 self.linearise(state);
@@ -403,7 +411,8 @@ impl<'a> Newton<'a> {
         contact: Option<&ContactField>,
     ) -> f64 {
         self.matrix.clear();
-        add_stiffness(self.model, state, targets, curvature, &self.elements, &mut self.matrix);
+        let (elements, matrix) = (&self.elements, &mut self.matrix);
+        add_stiffness(self.model, state, targets, &self.elongations, curvature, elements, matrix);
         let scale = self.matrix.mean_diagonal();
         if is_supported {
             add_support(self.supported, state, scale, &mut self.matrix);

@@ -293,13 +293,18 @@ impl Candidates {
         self.searches += 1;
         let boxes = self.primitives.boxes(positions, displacement, 0.5 * within);
         self.tree.refit(&boxes);
+        let furthest = within + 2.0 * largest(displacement);
         let (mut pairs, mut distances) = (Vec::new(), Vec::new());
-        for (a, b) in self.tree.overlapping_pairs(&boxes) {
+        self.tree.visit_overlapping(&boxes, |a, b| {
             self.primitives.visit_pairs(a, b, |kind, nodes, mollifier| {
                 let mut pair = ContactPair::new(kind, nodes, [a, b], self.gap, mollifier);
                 let x = pair.corners(positions);
+                let least = pair.least_distance(&x);
+                if least >= furthest {
+                    return;
+                }
                 let within = within + pair.speed(&pair.corners(displacement));
-                if pair.least_distance(&x) >= within {
+                if least >= within {
                     return;
                 }
                 let distance = pair.closest(&x).distance;
@@ -308,7 +313,7 @@ impl Candidates {
                     distances.push(distance);
                 }
             });
-        }
+        });
         (pairs, distances)
     }
 

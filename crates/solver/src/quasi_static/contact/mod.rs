@@ -268,12 +268,16 @@ impl ContactField {
             ahead.direction.iter().zip(&step.direction).map(|(&a, &d)| a - d).collect();
         let mut slope = dot(gradient, &way) + dot(&step.elastic, &way);
         let bend = dot(&ahead.elastic, &way) - dot(&step.elastic, &way);
-        let mut pieces = Vec::with_capacity(self.planes.len());
+        let mut pieces = Vec::new();
         for plane in &self.planes {
             let rate = plane.change(&way);
             // The gradient holds what pushes at the start.
             slope += plane.push(plane.value).max(0.0) * rate;
-            pieces.push((plane.push_after(&step.direction), rate, plane.stiffness));
+            let push = plane.push_after(&step.direction);
+            // Pushes are linear along the way.
+            if push > 0.0 || push > plane.stiffness * rate {
+                pieces.push((push, rate, plane.stiffness));
+            }
         }
         let derivative = |share: f64| {
             let pushes = pieces.iter().map(|&(push, rate, stiffness): &(f64, f64, f64)| {
