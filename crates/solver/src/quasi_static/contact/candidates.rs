@@ -181,6 +181,7 @@ impl Candidates {
             if let Some(&index) = by_key.get(&old.key()) {
                 let pair = &mut pairs[index as usize];
                 pair.multiplier = old.multiplier;
+                pair.stiffening = old.stiffening;
                 pair.is_on_facet = old.is_on_facet;
                 pair.has_plane = old.has_plane;
             }

@@ -39,6 +39,10 @@ use crate::{Model, SolverError};
 const VIOLATION: f64 = 0.1;
 /// Layers keep the gap over this, so that what is missing in equilibrium does not show.
 const KEPT: f64 = 1.0 - VIOLATION;
+/// By how much κ grows of a pair that misses more at an update of the multipliers, which then converge the faster, and
+/// the largest growth.
+const STIFFENING: f64 = 2.0;
+const MOST_STIFFENING: f64 = 1e3;
 /// A gap above this share of the smallest height of a facet cannot be kept by a folded sheet.
 const LARGEST_GAP: f64 = 0.25;
 /// Layers that may lie between the facets of one crease.
@@ -288,7 +292,8 @@ impl ContactField {
         least_of_convex(derivative)
     }
 
-    /// Lets the multipliers carry the forces at `positions`, if a gap is not kept there; whether it did.
+    /// Lets the multipliers carry the forces at `positions` and stiffens the pairs that miss too much of their gap, if
+    /// there are any; whether it did.
     pub(super) fn update_multipliers(&mut self, positions: &[DVec3]) -> bool {
         let violation = |plane: &Plane| (plane.gap - plane.value_at(positions)) / plane.gap;
         if self.planes.iter().all(|plane| violation(plane) <= VIOLATION) {
@@ -296,7 +301,12 @@ impl ContactField {
         }
         for plane in &mut self.planes {
             plane.multiplier = plane.push(plane.value_at(positions)).max(0.0);
-            self.candidates.pair_mut(plane.pair).multiplier = plane.multiplier;
+            let pair = self.candidates.pair_mut(plane.pair);
+            pair.multiplier = plane.multiplier;
+            if violation(plane) > VIOLATION && pair.stiffening < MOST_STIFFENING {
+                pair.stiffening *= STIFFENING;
+                plane.stiffness *= STIFFENING;
+            }
         }
         true
     }

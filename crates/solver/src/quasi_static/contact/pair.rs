@@ -41,6 +41,8 @@ pub(super) struct ContactPair {
     pub(super) mollifier: f64,
     /// λ of the last equilibrium.
     pub(super) multiplier: f64,
+    /// κ over that of pairs whose multiplier alone suffices.
+    pub(super) stiffening: f64,
     /// Whether its last plane was that of its facet.
     pub(super) is_on_facet: bool,
     /// Whether a plane is held for it in this step.
@@ -62,6 +64,7 @@ impl ContactPair {
             gap,
             mollifier,
             multiplier: 0.0,
+            stiffening: 1.0,
             is_on_facet: false,
             has_plane: false,
         }

@@ -94,7 +94,7 @@ impl Plane {
             slopes: closest.gradient(),
             value: closest.distance,
             gap: pair.gap,
-            stiffness: share,
+            stiffness: share * pair.stiffening,
             multiplier: pair.multiplier,
             is_active: false,
         };
