@@ -49,6 +49,8 @@ const CHORD_DECREASE: f64 = 0.1;
 const MOST_ROUNDS: usize = 20;
 /// A round that advances by less than this share ends the search for the step.
 const LEAST_ADVANCE: f64 = 1e-6;
+/// After as many iterations a state whose energy is level but for rounding is no longer polished.
+const POLISHED: usize = 30;
 /// Contact is foreseen for steps that move no node further.
 const FURTHEST_FORESEEN: f64 = 0.05;
 
@@ -151,7 +153,7 @@ impl<'a> Newton<'a> {
         self.chord = None;
         self.elongations = elongations(self.model, &state.positions);
         let earlier = self.factorisations;
-        let mut is_near = false;
+        let (mut is_near, mut is_level) = (false, false);
         let mut iterations = 0;
         let mut residual = largest(&gradient);
         loop {
@@ -160,13 +162,15 @@ impl<'a> Newton<'a> {
             let factorisations = self.factorisations - earlier;
             let settled =
                 |converged| SearchOutcome { converged, residual, iterations, factorisations };
-            let is_balanced = residual <= tolerance.force;
-            if is_balanced && is_near {
+            // Where the energy is level but for rounding, steps wander and leave forces of rounding's making.
+            let force = if is_level { tolerances[1].force } else { tolerance.force };
+            let is_balanced = residual <= force;
+            if is_balanced && (is_near || is_level) {
                 let updates = |c: &mut ContactField| c.update_multipliers(&state.positions);
                 if self.contact.as_mut().is_some_and(updates) {
                     energy = self.energy(state, targets);
                     gradient = self.gradient(state, targets);
-                    is_near = false;
+                    (is_near, is_level) = (false, false);
                     self.effort.multiplier_updates += 1;
                     continue;
                 }
@@ -180,12 +184,18 @@ impl<'a> Newton<'a> {
                 return Ok(settled(is_balanced));
             };
             is_near = step.is_last(&tolerance);
+            is_level = step.is_level && iterations > POLISHED;
             residual = largest(&step.gradient);
             let [from, to] = [&state.positions, &step.state.positions];
             self.elongations = foreseen_elongations(self.model, from, to);
             *state = step.state;
             if self.contact.is_some() {
                 self.linearise(state);
+                if let Some(contact) = &mut self.contact
+                    && step.is_cut
+                {
+                    contact.stiffen(&state.positions);
+                }
                 energy = self.energy(state, targets);
                 gradient = self.gradient(state, targets);
             } else {
@@ -450,7 +460,8 @@ impl<'a> Newton<'a> {
         }
         let first = (LARGEST_MOVE / reach).min(1.0);
         let mut length = self.limited(&state.positions, direction, first);
-        self.effort.cut_steps += usize::from(length < first);
+        let is_cut = length < first;
+        self.effort.cut_steps += usize::from(is_cut);
         let residual = largest(gradient);
         let rounding = self.energy_rounding(energy);
         for _halving in 0..MAX_HALVINGS {
@@ -467,6 +478,8 @@ impl<'a> Newton<'a> {
                             gradient: trial_gradient,
                             full_move: (length == 1.0).then_some(reach),
                             decrease: None,
+                            is_cut,
+                            is_level: -slope <= rounding,
                         });
                     }
                 }
@@ -502,6 +515,10 @@ struct Step {
     full_move: Option<f64>,
     /// The move over that of the step before, where this step was made with the same factor.
     decrease: Option<f64>,
+    /// Whether contact shortened it.
+    is_cut: bool,
+    /// Whether rounding may change the energy by more than the step was to lower it.
+    is_level: bool,
 }
 
 impl Step {

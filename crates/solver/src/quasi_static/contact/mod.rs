@@ -42,7 +42,9 @@ const KEPT: f64 = 1.0 - VIOLATION;
 /// By how much κ grows of a pair that misses more at an update of the multipliers, which then converge the faster, and
 /// the largest growth.
 const STIFFENING: f64 = 2.0;
-const MOST_STIFFENING: f64 = 1e3;
+const MOST_STIFFENING: f64 = 1e6;
+/// Pairs that come closer than this many gaps on the way to an equilibrium are pressed hard.
+const PRESSED: f64 = 0.75;
 /// A gap above this share of the smallest height of a facet cannot be kept by a folded sheet.
 const LARGEST_GAP: f64 = 0.25;
 /// Layers that may lie between the facets of one crease.
@@ -309,6 +311,18 @@ impl ContactField {
             }
         }
         true
+    }
+
+    /// Stiffens the pairs that have given up much of their gap at `positions`, where a step was cut short: the force that
+    /// presses them together is more than they can bear before they come too close.
+    pub(super) fn stiffen(&mut self, positions: &[DVec3]) {
+        for plane in &mut self.planes {
+            let pair = self.candidates.pair_mut(plane.pair);
+            if plane.value_at(positions) < PRESSED * plane.gap && pair.stiffening < MOST_STIFFENING {
+                pair.stiffening *= STIFFENING;
+                plane.stiffness *= STIFFENING;
+            }
+        }
     }
 
     /// The largest t ≤ `limit` for which every pair keeps half of its gap on the path from `positions` along

@@ -76,10 +76,10 @@ impl Plane {
                     Form::Fixed
                 }
             }
-            PairKind::EdgeEdge if !closest.is_inside() => return None,
+            PairKind::EdgeEdge if !closest.is_inside() && pair.multiplier == 0.0 => return None,
             PairKind::EdgeEdge => {
                 share = pair.share(x);
-                if share < 1.0 { Form::Fixed } else { Form::Lines }
+                if share < 1.0 || !closest.is_inside() { Form::Fixed } else { Form::Lines }
             }
         };
         if share <= LEAST_SHARE || closest.distance.is_nan() || closest.distance == 0.0 {
