@@ -204,12 +204,12 @@ fn a_frame_with_a_hole_folds_in_steps_and_one_facet_stays_in_place() {
 }
 
 #[test]
-fn a_crane_and_a_bird_base_are_reported_not_to_reach_their_end() {
-    for name in ["bird-base.fold", "crane.svg"] {
-        let (report, _) = run(&example(name), &[]);
-        assert_eq!(report.status(), 3, "{name}");
-        assert!(report.jam.is_some() || !report.stages[0].converged);
-    }
+fn a_bird_base_folds_and_a_crane_is_reported_not_to_reach_its_end() {
+    let (report, _) = run(&example("bird-base.fold"), &[]);
+    assert_eq!((report.status(), report.collision.verdict.name()), (0, "free"));
+    let (report, _) = run(&example("crane.svg"), &[]);
+    assert_eq!(report.status(), 3);
+    assert!(report.jam.is_some() || !report.stages[0].converged);
 }
 
 /// A strip of three panels with two creases, whose frames fold one after the other.

@@ -254,9 +254,11 @@ fn the_compact_box_converges_linearly_with_the_gap() {
     });
     for axis in 0..3 {
         let [e4, e2, e1] = extents.map(|e| e[axis]);
-        // Richardson: what is left at no gap after the linear part is taken off.
-        assert!((2.0 * e1 - e2).abs() < 3e-3, "axis {axis}: {e4} {e2} {e1}");
-        assert!((2.0 * e2 - e4).abs() < 4e-3, "axis {axis}: {e4} {e2} {e1}");
+        // Richardson: what is left at no gap after the linear part is taken off, but for the tenth of each gap that
+        // eight layers may miss.
+        let missed = |gap: f64| 8.0 * 0.1 * 2.0 * gap;
+        assert!((2.0 * e1 - e2).abs() < missed(2e-3), "axis {axis}: {e4} {e2} {e1}");
+        assert!((2.0 * e2 - e4).abs() < missed(4e-3), "axis {axis}: {e4} {e2} {e1}");
         assert!(e4 > e2 && e2 > e1 && e1 > 0.0, "axis {axis}: {e4} {e2} {e1}");
     }
 }

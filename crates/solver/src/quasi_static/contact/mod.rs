@@ -39,10 +39,6 @@ use crate::{Model, SolverError};
 const VIOLATION: f64 = 0.1;
 /// Layers keep the gap over this, so that what is missing in equilibrium does not show.
 const KEPT: f64 = 1.0 - VIOLATION;
-/// By how much κ grows of a pair that misses more at an update of the multipliers, which then converge the faster, and
-/// the largest growth.
-const STIFFENING: f64 = 2.0;
-const MOST_STIFFENING: f64 = 1e6;
 /// Pairs that come closer than this many gaps on the way to an equilibrium are pressed hard.
 const PRESSED: f64 = 0.75;
 /// A gap above this share of the smallest height of a facet cannot be kept by a folded sheet.
@@ -305,9 +301,8 @@ impl ContactField {
             plane.multiplier = plane.push(plane.value_at(positions)).max(0.0);
             let pair = self.candidates.pair_mut(plane.pair);
             pair.multiplier = plane.multiplier;
-            if violation(plane) > VIOLATION && pair.stiffening < MOST_STIFFENING {
-                pair.stiffening *= STIFFENING;
-                plane.stiffness *= STIFFENING;
+            if violation(plane) > VIOLATION {
+                plane.stiffen(pair);
             }
         }
         true
@@ -317,10 +312,8 @@ impl ContactField {
     /// presses them together is more than they can bear before they come too close.
     pub(super) fn stiffen(&mut self, positions: &[DVec3]) {
         for plane in &mut self.planes {
-            let pair = self.candidates.pair_mut(plane.pair);
-            if plane.value_at(positions) < PRESSED * plane.gap && pair.stiffening < MOST_STIFFENING {
-                pair.stiffening *= STIFFENING;
-                plane.stiffness *= STIFFENING;
+            if plane.value_at(positions) < PRESSED * plane.gap {
+                plane.stiffen(self.candidates.pair_mut(plane.pair));
             }
         }
     }

@@ -25,6 +25,10 @@ const LEAST_SHARE: f64 = 1e-3;
 const OFF_FACET: f64 = 2.0;
 const LEAST_HEIGHT: f64 = 0.5;
 
+/// By how much κ grows of a pair whose multiplier converges too slowly, and the largest growth in all.
+const STIFFENING: f64 = 2.0;
+const MOST_STIFFENING: f64 = 1e6;
+
 /// How the distance between the two is measured.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Form {
@@ -103,6 +107,14 @@ impl Plane {
             (plane.value, plane.slopes) = plane.measure(x);
         }
         Some(plane)
+    }
+
+    /// Lets κ of its `pair` grow.
+    pub(super) fn stiffen(&mut self, pair: &mut ContactPair) {
+        if pair.stiffening < MOST_STIFFENING {
+            pair.stiffening *= STIFFENING;
+            self.stiffness *= STIFFENING;
+        }
     }
 
     fn corners(&self, positions: &[DVec3]) -> [DVec3; 4] {
