@@ -25,6 +25,7 @@ mod options;
 mod outcome;
 
 mod run;
+mod stall;
 mod step_control;
 mod stiffness_matrix;
 

@@ -22,6 +22,7 @@ use super::element_stiffness::{
 };
 use super::hinge_hessian::outer;
 use super::model_step::ModelStep;
+use super::stall::Stall;
 use super::stiffness_matrix::StiffnessMatrix;
 use crate::budget::Allowance;
 use crate::{Model, SolverError};
@@ -154,6 +155,7 @@ impl<'a> Newton<'a> {
         self.elongations = elongations(self.model, &state.positions);
         let earlier = self.factorisations;
         let (mut is_near, mut is_level) = (false, false);
+        let mut stall = Stall::NONE;
         let mut iterations = 0;
         let mut residual = largest(&gradient);
         loop {
@@ -164,19 +166,21 @@ impl<'a> Newton<'a> {
                 |converged| SearchOutcome { converged, residual, iterations, factorisations };
             // Where the energy is level but for rounding, steps wander and leave forces of rounding's making.
             let force = if is_level { tolerances[1].force } else { tolerance.force };
-            let is_balanced = residual <= force;
+            let is_balanced = residual <= force + self.contact_rounding(state);
             if is_balanced && (is_near || is_level) {
                 let updates = |c: &mut ContactField| c.update_multipliers(&state.positions);
                 if self.contact.as_mut().is_some_and(updates) {
                     energy = self.energy(state, targets);
                     gradient = self.gradient(state, targets);
                     (is_near, is_level) = (false, false);
+                    stall = Stall::NONE;
                     self.effort.multiplier_updates += 1;
                     continue;
                 }
                 return Ok(settled(true));
             }
-            if allowance.is_spent(iterations as u64) || !energy.is_finite() {
+            let is_stalled = stall.note(energy, residual, self.energy_rounding(energy));
+            if is_stalled || allowance.is_spent(iterations as u64) || !energy.is_finite() {
                 return Ok(settled(is_balanced));
             }
             let Some(step) = self.step(state, targets, &gradient, energy)? else {
@@ -191,10 +195,8 @@ impl<'a> Newton<'a> {
             *state = step.state;
             if self.contact.is_some() {
                 self.linearise(state);
-                if let Some(contact) = &mut self.contact
-                    && step.is_cut
-                {
-                    contact.stiffen(&state.positions);
+                if step.is_cut && self.stiffen(state) {
+                    stall = Stall::NONE;
                 }
                 energy = self.energy(state, targets);
                 gradient = self.gradient(state, targets);
@@ -212,6 +214,17 @@ impl<'a> Newton<'a> {
         if let Some(contact) = &mut self.contact {
             contact.linearise(&state.positions);
         }
+    }
+
+    /// Stiffens the pairs that are pressed hard in `state`; whether there are any.
+    fn stiffen(&mut self, state: &Configuration) -> bool {
+        self.contact.as_mut().is_some_and(|contact| contact.stiffen(&state.positions))
+    }
+
+    /// The nodal force that rounding of the contact may leave.
+    fn contact_rounding(&self, state: &Configuration) -> f64 {
+        let contact = self.contact.as_ref().filter(|contact| contact.pushes());
+        contact.map_or(0.0, |contact| contact.rounding_force(&state.positions))
     }
 
     fn energy(&mut self, state: &Configuration, targets: &[f64]) -> f64 {

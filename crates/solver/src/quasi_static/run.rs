@@ -302,14 +302,12 @@ impl Run<'_> {
         }
     }
 
-    /// The tolerance of states in which layers push.
+    /// The tolerance of states in which layers push, but for rounding of their forces.
     fn contact_tolerance(&self) -> Tolerance {
         let without = self.tolerance();
         let lenient = CONTACT_LENIENCE * self.options.tolerance * force_scale(self.model);
-        let contact = self.newton.contact.as_ref().map_or(0.0, ContactField::stiffness);
-        let rounding = 16.0 * f64::EPSILON * contact * largest(&self.state.positions);
         Tolerance {
-            force: without.force + lenient + rounding,
+            force: without.force + lenient,
             step: CONTACT_STEP_TOLERANCE,
             remainder: without.remainder.max(CONTACT_REMAINDER),
         }

@@ -183,6 +183,7 @@ impl Candidates {
                 pair.multiplier = old.multiplier;
                 pair.stiffening = old.stiffening;
                 pair.is_on_facet = old.is_on_facet;
+                pair.pushes = old.pushes;
                 pair.has_plane = old.has_plane;
             }
         }

@@ -30,7 +30,7 @@ use glam::DVec3;
 use self::candidates::Candidates;
 use self::plane::{Form, Plane};
 use self::primitives::Primitives;
-use super::configuration::dot;
+use super::configuration::{dot, largest};
 use super::model_step::ModelStep;
 use super::stiffness_matrix::StiffnessMatrix;
 use crate::{Model, SolverError};
@@ -41,6 +41,8 @@ const VIOLATION: f64 = 0.1;
 const KEPT: f64 = 1.0 - VIOLATION;
 /// Pairs that come closer than this many gaps on the way to an equilibrium are pressed hard.
 const PRESSED: f64 = 0.75;
+/// Positions are known to this share of their size.
+const ROUNDING: f64 = 16.0 * f64::EPSILON;
 /// A gap above this share of the smallest height of a facet cannot be kept by a folded sheet.
 const LARGEST_GAP: f64 = 0.25;
 /// Layers that may lie between the facets of one crease.
@@ -121,6 +123,13 @@ impl ContactField {
         self.force / self.candidates.gap()
     }
 
+    /// The force that rounding of `positions` may leave: κ of the stiffest plane times it.
+    pub(super) fn rounding_force(&self, positions: &[DVec3]) -> f64 {
+        let stiffness =
+            self.planes.iter().map(|plane| plane.stiffness).fold(self.stiffness(), f64::max);
+        ROUNDING * stiffness * largest(positions)
+    }
+
     /// How far layers a gap apart may keep creases from their targets, in radians: several layers over the smallest
     /// height of a triangle.
     pub(super) fn fold_angle_slack(&self) -> f64 {
@@ -142,11 +151,12 @@ impl ContactField {
             self.add_plane(index, positions);
         }
         for pair in self.candidates.pairs_mut() {
-            pair.is_on_facet = false;
+            (pair.is_on_facet, pair.pushes) = (false, false);
         }
         for plane in &mut self.planes {
-            self.candidates.pair_mut(plane.pair).is_on_facet = plane.form == Form::Facet;
             plane.is_active = plane.push(plane.value) > 0.0;
+            let pair = self.candidates.pair_mut(plane.pair);
+            (pair.is_on_facet, pair.pushes) = (plane.form == Form::Facet, plane.is_active);
         }
     }
 
@@ -309,13 +319,15 @@ impl ContactField {
     }
 
     /// Stiffens the pairs that have given up much of their gap at `positions`, where a step was cut short: the force that
-    /// presses them together is more than they can bear before they come too close.
-    pub(super) fn stiffen(&mut self, positions: &[DVec3]) {
+    /// presses them together is more than they can bear before they come too close. Returns whether there are any.
+    pub(super) fn stiffen(&mut self, positions: &[DVec3]) -> bool {
+        let mut stiffened = false;
         for plane in &mut self.planes {
             if plane.value_at(positions) < PRESSED * plane.gap {
-                plane.stiffen(self.candidates.pair_mut(plane.pair));
+                stiffened |= plane.stiffen(self.candidates.pair_mut(plane.pair));
             }
         }
+        stiffened
     }
 
     /// The largest t ≤ `limit` for which every pair keeps half of its gap on the path from `positions` along

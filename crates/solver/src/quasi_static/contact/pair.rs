@@ -45,6 +45,8 @@ pub(super) struct ContactPair {
     pub(super) stiffening: f64,
     /// Whether its last plane was that of its facet.
     pub(super) is_on_facet: bool,
+    /// Whether its last plane pushed.
+    pub(super) pushes: bool,
     /// Whether a plane is held for it in this step.
     pub(super) has_plane: bool,
 }
@@ -66,13 +68,14 @@ impl ContactPair {
             multiplier: 0.0,
             stiffening: 1.0,
             is_on_facet: false,
+            pushes: false,
             has_plane: false,
         }
     }
 
     /// Whether anything is known of it that a new search has to carry over.
     pub(super) fn is_known(&self) -> bool {
-        self.multiplier > 0.0 || self.is_on_facet || self.has_plane
+        self.multiplier > 0.0 || self.is_on_facet || self.pushes || self.has_plane
     }
 
     /// ε for edges of these rest lengths.

@@ -80,7 +80,13 @@ impl Plane {
                     Form::Fixed
                 }
             }
-            PairKind::EdgeEdge if !closest.is_inside() && pair.multiplier == 0.0 => return None,
+            // The vertices at the ends hold what slides off an edge, but a search that leaves it to them at once may
+            // come back and go on in circles.
+            PairKind::EdgeEdge
+                if !closest.is_inside() && !pair.pushes && pair.multiplier == 0.0 =>
+            {
+                return None;
+            }
             PairKind::EdgeEdge => {
                 share = pair.share(x);
                 if share < 1.0 || !closest.is_inside() { Form::Fixed } else { Form::Lines }
@@ -109,12 +115,14 @@ impl Plane {
         Some(plane)
     }
 
-    /// Lets κ of its `pair` grow.
-    pub(super) fn stiffen(&mut self, pair: &mut ContactPair) {
-        if pair.stiffening < MOST_STIFFENING {
+    /// Lets κ of its `pair` grow, if it may.
+    pub(super) fn stiffen(&mut self, pair: &mut ContactPair) -> bool {
+        let may_grow = pair.stiffening < MOST_STIFFENING;
+        if may_grow {
             pair.stiffening *= STIFFENING;
             self.stiffness *= STIFFENING;
         }
+        may_grow
     }
 
     fn corners(&self, positions: &[DVec3]) -> [DVec3; 4] {
