@@ -88,7 +88,7 @@ impl Study {
         Ok(Self {
             title: title.clone(),
             unit_name: unit_name(&input, &subject),
-            model: Model::new(sheet, &material::material(&input)?)?,
+            model: Model::new(sheet, &material::material(&input, &subject)?)?,
             schedule,
             engine: motion::engine(&input),
             device: Device::Cpu,

@@ -258,7 +258,7 @@ pub struct DivisionScene {
 pub struct MaterialScene {
     /// The constants to start from; the keys below replace single constants.
     #[serde(deserialize_with = "choice::optional")]
-    #[schemars(extend("x-default" = "the constants given below as defaults"))]
+    #[schemars(extend("x-default" = "the constants given below as defaults; `origami-simulator` for a pattern from a file"))]
     pub preset: Option<Preset>,
     /// The thickness of the sheet: layers come no closer than this. Excludes motion.gap.
     #[schemars(extend("x-default" = "none: layers keep motion.gap", "x-unit" = "profile.unit, or the unit of the pattern", "minimum" = 1e-09, "maximum" = 1_000_000_000.0))]
@@ -275,8 +275,9 @@ pub struct MaterialScene {
     /// How the quadrilateral facets of units are cut into triangles. Does not apply to a pattern from a file.
     #[schemars(extend("x-default" = "`symmetric`; `one-diagonal` for maps, and if a facet is narrower than a tenth of its length"))]
     pub facet_model: Option<FacetModel>,
-    /// The stiffness of the angles of each triangle; Origami Simulator sets 0.2.
-    #[schemars(extend("default" = 0.0, "minimum" = 0, "maximum" = 1_000_000_000_000.0))]
+    /// The stiffness of the angles of each triangle. Origami Simulator sets 0.2, with the radius of the pattern as the unit of
+    /// length.
+    #[schemars(extend("x-default" = "0; 0.2 times the radius over the mean edge for a pattern from a file", "minimum" = 0, "maximum" = 1_000_000_000_000.0))]
     pub face_angle_stiffness: Option<f64>,
     /// The damping ratio ζ of the bars, used by the dynamic engine.
     #[schemars(extend("default" = 0.45, "minimum" = 0, "maximum" = 1000))]

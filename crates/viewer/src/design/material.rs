@@ -16,7 +16,8 @@ pub(super) fn show(form: &mut Form<'_>, ui: &mut Ui) {
         form.menu(ui, &field, "standard", |scene| &mut scene.material.preset);
         let text = "Only the ratios of the constants shape the fold. Constants given below replace those of the preset.";
         ui.add(Label::new(note(ui, text)).wrap());
-        let preset = form.scene.material.preset;
+        let of_pattern = form.scene.pattern.as_ref().map(|_| Preset::OrigamiSimulator);
+        let preset = form.scene.material.preset.or(of_pattern);
         let preset = preset.map(Preset::material);
         show_constants(form, ui, &preset.unwrap_or_default());
         let field = Field::new("material.facet_model", "facets");
