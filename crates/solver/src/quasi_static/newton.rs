@@ -51,9 +51,9 @@ const MOST_ROUNDS: usize = 20;
 /// A round that advances by less than this share ends the search for the step.
 const LEAST_ADVANCE: f64 = 1e-6;
 /// After as many iterations a state whose energy is level but for rounding is no longer polished.
-const POLISHED: usize = 30;
+const POLISHED: usize = 8;
 /// Contact is foreseen for steps that move no node further.
-const FURTHEST_FORESEEN: f64 = 0.05;
+const FURTHEST_FORESEEN: f64 = 0.2;
 
 /// The outcome of a search for equilibrium.
 #[derive(Debug, Clone, Copy, PartialEq)]
