@@ -27,8 +27,7 @@ pub(super) struct Assembled {
 /// Cuts the facets into triangles, opens the cuts, and leaves out points of no facet.
 ///
 /// # Errors
-/// [`ImportError::Facet`], [`ImportError::NonManifold`], [`ImportError::Overlap`], [`ImportError::BorderInside`],
-/// [`ImportError::Disconnected`].
+/// [`ImportError::Facet`], [`ImportError::NonManifold`], [`ImportError::Overlap`], [`ImportError::Disconnected`].
 pub(super) fn assemble(plan: &Plan, warnings: &mut Warnings) -> Result<Assembled, ImportError> {
     let lines: BTreeMap<[u32; 2], u32> =
         (0..).zip(&plan.lines).map(|(i, l)| (l.key(), i)).collect();
@@ -195,8 +194,7 @@ impl Assembly<'_> {
         };
         let source = &self.plan.sources[line.source as usize];
         match (line.role, is_joined) {
-            (Role::Border, true) => Err(ImportError::BorderInside { element: source.clone() }),
-            (Role::Cut, true) => {
+            (Role::Border | Role::Cut, true) => {
                 warnings.add(WarningKind::ClosedCut, source);
                 Ok(Assignment::Free)
             }

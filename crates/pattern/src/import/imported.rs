@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use glam::DVec3;
 use serde_json::{Map, Value};
 
-use super::{ImportError, LengthUnit, Source, Warning};
+use super::{ImportError, LengthUnit, Mending, Source, Warning};
 use crate::{Assignment, Sheet};
 
 /// A crease pattern read from a file: the sheet, and what it is to fold to.
@@ -37,6 +37,8 @@ pub struct ImportedPattern {
     /// The vertices as a FOLD file places them, if they are not in the plane z = 0 with the fronts up: its
     /// coordinates, for the vertices of the sheet.
     pub shape: Option<Vec<DVec3>>,
+    /// What was done about lines that nearly meet, and which creases were left out.
+    pub mending: Mending,
     /// What was changed or left out, one warning for each kind.
     pub warnings: Vec<Warning>,
     /// The keys of a FOLD file's key frame that are not read; see [`Self::fold`].
@@ -67,6 +69,14 @@ impl ImportedPattern {
             return Err(ImportError::Percentage { value: fraction });
         }
         Ok(self.targets.iter().map(|target| target * fraction).collect())
+    }
+
+    /// Whether two facets meet at a mountain or valley crease or at a free hinge.
+    pub fn has_creases(&self) -> bool {
+        let mut edges = self.sheet.edges.iter();
+        edges.any(|edge| {
+            edge.is_hinge() && (edge.is_crease() || edge.assignment == Assignment::Free)
+        })
     }
 
     /// The edges that nothing drives and nothing holds.

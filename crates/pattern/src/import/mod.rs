@@ -23,6 +23,7 @@ mod fold;
 mod grid;
 mod imported;
 mod loops;
+mod mending;
 mod open_cuts;
 mod options;
 mod plan;
@@ -40,6 +41,7 @@ mod write_fold;
 pub use error::ImportError;
 pub use fold::import_fold;
 pub use imported::{ImportedPattern, PatternStage};
+pub use mending::{DroppedCrease, Mending};
 pub use options::{
     Curves, ImportOptions, LARGEST_IMPORT_FILE, MOST_LINES, MOST_NESTED, MOST_NODES, MOST_PIECES,
     MOST_STAGE_ANGLES, MOST_STYLE_RULES, MOST_VERTICES, MergeTolerance, UnknownElements,
@@ -57,14 +59,16 @@ use warning::Warnings;
 
 /// The least diagonal of a pattern; its inverse is the longest.
 const LEAST_DIAGONAL: f64 = 1e-30;
+/// How far from the origin a pattern is left, in diagonals.
+const FAR: f64 = 1e3;
 /// How far from the origin a pattern may lie, in diagonals.
-const FARTHEST: f64 = 1e6;
+const FARTHEST: f64 = 1e9;
 
 /// The facets of a drawing.
 ///
 /// `scale`: how long its own unit is in the units of its points. `joins`: whether straight lines in pieces are joined.
 fn plan_of(
-    drawing: Drawing,
+    mut drawing: Drawing,
     merge: MergeTolerance,
     scale: f64,
     joins: bool,
@@ -79,13 +83,14 @@ fn plan_of(
         });
     }
     let diagonal = check_extent(low, high)?;
-    let tolerance = merge.length(diagonal, scale)?;
-    let mut graph = split::planar_graph(&drawing, tolerance, warnings)?;
-    graph.drop_strays(&drawing.sources, warnings);
+    near_origin(&mut drawing.points, [low, high]);
+    let mut graph = mending::mended(&drawing, merge, diagonal, scale, warnings)?;
     if joins {
-        graph.join_straight(tolerance, &drawing.sources, warnings);
+        graph.join_straight(graph.mending.tolerance, &drawing.sources, warnings);
     }
-    plan::plan(graph, drawing.sources, warnings)
+    let mut plan = plan::plan(graph, drawing.sources, warnings)?;
+    plan.mending.in_units_of_file(scale);
+    Ok(plan)
 }
 
 /// The diagonal of a pattern between two corners.
@@ -101,6 +106,14 @@ fn check_extent(low: DVec2, high: DVec2) -> Result<f64, ImportError> {
         return Ok(diagonal);
     }
     Err(ImportError::Extent { diagonal, farthest })
+}
+
+/// Moves points that lie far from the origin, in their extents, there by the lower corner of their bounds: f64 tells near
+/// points apart best.
+fn near_origin(points: &mut [DVec2], [low, high]: [DVec2; 2]) {
+    if low.abs().max(high.abs()).max_element() > FAR * low.distance(high) {
+        points.iter_mut().for_each(|point| *point -= low);
+    }
 }
 
 /// Refuses files above the limit.

@@ -17,7 +17,10 @@ pub(super) fn stages(
 ) -> Result<Vec<PatternStage>, ImportError> {
     let edges = &imported.sheet.edges;
     let mut stages = Vec::new();
-    for (number, frame) in frames.with_angles(pattern.frame) {
+    for (number, reason) in frames.not_stages(pattern.frame) {
+        warnings.add(reason, &Source::FoldFrame(number as u32 - 1));
+    }
+    for (number, frame) in frames.stages(pattern.frame) {
         let index = number as u32 - 1;
         let own_edges = frames.edges(number).unwrap_or(&[]);
         if own_edges != pattern.edges {
