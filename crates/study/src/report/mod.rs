@@ -17,12 +17,13 @@ use crate::{Study, VERSION};
 
 pub use self::collision::{CollisionSection, DecidedBy, PenetrationReport};
 pub use self::compact::{BoxReport, CompactReport, ErrorReport, SkinPlaneReport, SkinReport};
-pub use self::imported::ImportReport;
+pub use self::imported::{DroppedCreaseReport, ImportReport, MendingReport};
 use self::motion::stage_report;
 pub use self::motion::{EnergyReport, EngineReport, SecondsReport, StageReport};
+pub(crate) use self::sheet::not_flat_foldable;
 pub use self::sheet::{
-    DivisionReport, FitReport, MapReport, PatternReport, ProfileReport, RowReport, UnfoldReport,
-    UnitReport, VertexReport,
+    DivisionReport, FitReport, FlatFoldingFault, MapReport, PatternReport, ProfileReport,
+    RowReport, UnfoldReport, UnitReport, VertexReport,
 };
 use self::sheet::{division_report, profile_report, row_reports, unfold_report};
 pub use crate::compute::fold_angles::FoldAngleReport;
