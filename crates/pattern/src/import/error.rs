@@ -226,6 +226,14 @@ pub enum ImportError {
         /// The fold angle, degrees.
         degrees: f64,
     },
+    /// The stages of a recorded motion cannot be read.
+    #[error(
+        "foldmotion:stages: {message}; a list of lists of fold angles is needed, one entry for each edge"
+    )]
+    RecordedStages {
+        /// What is wrong.
+        message: String,
+    },
     /// A unit of length that FOLD does not know.
     #[error("frame_unit is {found:?}: unit, in, pt, m, cm, mm, um and nm are known")]
     Unit {

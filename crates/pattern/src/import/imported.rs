@@ -5,6 +5,7 @@ use std::f64::consts::PI;
 use glam::DVec3;
 use serde_json::{Map, Value};
 
+use super::fold::RECORDED_STAGES;
 use super::{ImportError, LengthUnit, Mending, Source, Warning};
 use crate::{Assignment, Sheet};
 
@@ -59,6 +60,24 @@ pub struct PatternStage {
 }
 
 impl ImportedPattern {
+    /// The keys of a FOLD file of a motion of this pattern that ends each of its stages at `waypoints`, the fold angles of
+    /// every edge in radians: those of [`Self::keys_of_triangles`], and the stages if there are several.
+    pub fn keys_of_motion(&self, waypoints: &[Vec<f64>]) -> Map<String, Value> {
+        let mut keys = self.keys_of_triangles();
+        if waypoints.len() > 1 {
+            let is_hinge = |edge: &crate::Edge| edge.is_crease() && edge.is_hinge();
+            let degrees = |(edge, angle): (&crate::Edge, &f64)| {
+                is_hinge(edge).then(|| angle.to_degrees().clamp(-180.0, 180.0))
+            };
+            let stage = |angles: &Vec<f64>| -> Vec<Option<f64>> {
+                self.sheet.edges.iter().zip(angles).map(degrees).collect()
+            };
+            let stages: Vec<_> = waypoints.iter().map(stage).collect();
+            keys.insert(RECORDED_STAGES.to_owned(), serde_json::json!(stages));
+        }
+        keys
+    }
+
     /// The fold angle of every edge, radians, at a fold percentage as in Origami Simulator: the targets times
     /// `fraction`, −1 to 1.
     ///

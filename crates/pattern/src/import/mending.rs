@@ -9,8 +9,9 @@ use super::split::{Graph, planar_graph};
 use super::warning::Warnings;
 use super::{ImportError, MergeTolerance, Source};
 
-/// The tolerances that are tried, in parts of the diagonal; Origami Simulator's 3 units are 1/200 of one of 600.
-const TRIED: [f64; 7] = [1e-5, 1e-4, 2e-4, 5e-4, 1e-3, 2e-3, 5e-3];
+/// The tolerances that are tried, in parts of the diagonal; Origami Simulator's 3 units are 1/200 of one of 600. The
+/// least ones come last: they are for a small sheet beside something far away.
+const TRIED: [f64; 8] = [1e-4, 2e-4, 5e-4, 1e-3, 2e-3, 5e-3, 1e-5, 1e-6];
 /// A drawing that loses nothing, and whose vertices and lines keep this multiple of the tolerance apart, has no near
 /// misses.
 const CLEAR: f64 = 10.0;
@@ -114,7 +115,7 @@ fn length(line: &Line, points: &[DVec2]) -> f64 {
 ///
 /// A tolerance that is to be chosen is the one at which the fewest lines end nowhere, vanish or fall on each other; of
 /// several the one that vertices and lines keep apart by the largest multiple of, so that near misses lie below it
-/// and features above.
+/// and features above. One below the least is taken only where that loses lines.
 ///
 /// # Errors
 /// [`ImportError::Tolerance`], [`ImportError::TooMany`], [`ImportError::Tangled`], [`ImportError::MostDropped`].
@@ -129,13 +130,14 @@ pub(super) fn mended(
     let chosen = matches!(merge, MergeTolerance::Chosen { .. });
     let attempt = |tolerance: f64| Attempt::new(drawing, tolerance, FARTHEST * diagonal);
     let mut best = attempt(least);
-    let larger = TRIED.into_iter().map(|part| part * diagonal).filter(|&t| t > least);
-    for tolerance in larger.filter(|_| chosen) {
+    let others = TRIED.into_iter().map(|part| part * diagonal).filter(|&t| t != least);
+    for tolerance in others.filter(|_| chosen) {
         if best.as_ref().map_or_else(|error| !error.is_tangle(), Attempt::is_clear) {
             break;
         }
         let other = attempt(tolerance);
         let is_better = match (&other, &best) {
+            (Ok(other), Ok(best)) if tolerance < least => other.graph.lost < best.graph.lost,
             (Ok(other), Ok(best)) => other.is_better(best),
             (Ok(_), Err(_)) => true,
             (Err(_), _) => false,

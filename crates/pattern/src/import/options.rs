@@ -29,7 +29,7 @@ pub enum MergeTolerance {
     Relative(f64),
     /// In the drawing's own units, before it is scaled to its physical size: Origami Simulator takes 3.
     Absolute(f64),
-    /// From the drawing: no less than `least`, in parts of the diagonal, and no more than 1/200.
+    /// From the drawing, between a millionth of the diagonal and 1/200: `least` unless another loses fewer lines.
     Chosen {
         /// The tolerance of a drawing without near misses, in parts of the diagonal.
         least: f64,

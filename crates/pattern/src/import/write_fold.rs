@@ -7,7 +7,8 @@ use crate::fold::object_text;
 use crate::{Assignment, Sheet};
 
 /// Keys of FOLD that say what this writer says itself, or that a changed sheet makes wrong.
-const OWN: [&str; 18] = [
+const OWN: [&str; 19] = [
+    super::fold::RECORDED_STAGES,
     "file_spec",
     "file_creator",
     "file_frames",

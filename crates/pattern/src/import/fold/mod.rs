@@ -23,6 +23,7 @@ use super::{
 };
 use crate::fold::check_vertices;
 use frames::Frames;
+pub(super) use stages::RECORDED_STAGES;
 
 /// Reads a crease pattern from FOLD.
 ///
