@@ -1,6 +1,9 @@
 //! What a study says of an imported pattern: near misses, creases left out, vertices that cannot fold flat, thin parts; and
 //! its own motion as a pattern.
 
+#![expect(clippy::unwrap_used, reason = "a test stops where something is missing")]
+
+use std::fmt::Write as _;
 use std::path::Path;
 
 use foldmotion_study::{Report, SceneSource, Study, StudyError};
@@ -22,7 +25,7 @@ fn run(study: &Study, folder: &Path) -> Report {
 fn square(lines: &[([f64; 4], &str)]) -> String {
     let mut text = "<svg><rect width=\"100\" height=\"100\" stroke=\"#000\"/>".to_owned();
     for ([x1, y1, x2, y2], colour) in lines {
-        text += &format!("<path d=\"M{x1} {y1}L{x2} {y2}\" stroke=\"{colour}\"/>");
+        let _ = write!(text, "<path d=\"M{x1} {y1}L{x2} {y2}\" stroke=\"{colour}\"/>");
     }
     text + "</svg>"
 }

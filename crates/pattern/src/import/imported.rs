@@ -5,9 +5,11 @@ use std::f64::consts::PI;
 use glam::DVec3;
 use serde_json::{Map, Value};
 
-use super::fold::RECORDED_STAGES;
 use super::{ImportError, LengthUnit, Mending, Source, Warning};
 use crate::{Assignment, Sheet};
+
+/// The key of a FOLD file of a motion with the fold angles of every edge at the end of each stage, degrees.
+pub(super) const RECORDED_STAGES: &str = "foldmotion:stages";
 
 /// A crease pattern read from a file: the sheet, and what it is to fold to.
 #[derive(Debug, Clone, PartialEq)]

@@ -1,16 +1,18 @@
 //! Crease patterns of others: SVG as Origami Simulator draws them, and FOLD 1.0 to 1.2.
 //!
 //! A file becomes a drawing: lines that are border, cut, mountain, valley, free hinge or facet line, each with its
-//! target fold angle. Ends that nearly meet become one vertex, lines are split where they cross and touch, and lines that
-//! end nowhere are left out. The faces of the planar graph that lie inside the border are the facets; they are cut into
-//! triangles, and cuts are opened. FOLD files that list their faces skip the drawing.
+//! target fold angle. Ends that nearly meet become one vertex, within a tolerance chosen from the drawing; lines are split
+//! where they cross and touch, and lines that end nowhere are left out. The faces of the planar graph that lie inside the
+//! border are the facets; they are cut into triangles, and cuts are opened. FOLD files whose listed faces fit their edges
+//! skip the drawing.
 //!
-//! [`ImportedPattern::warnings`] name the elements that are changed or left out.
+//! [`ImportedPattern::warnings`] name the elements that are changed or left out, [`ImportedPattern::mending`] counts what
+//! was done about near misses and which creases are lost.
 //!
 //! **Flat only.** The solver takes its rest lengths and its flat facets from [`Sheet`](crate::Sheet)'s positions in the plane, so the
 //! pattern must be flat. A FOLD file whose key frame is not in the plane z = 0 is turned into it if its vertices lie in
-//! some plane, and refused otherwise ([`ImportError::NotFlat`]), unless one of its frames has the class
-//! `creasePattern`: that frame is read then.
+//! some plane, unless one of its frames has the class `creasePattern`: that frame is read then. A folded shape is laid out
+//! flat by its faces; without faces it is refused ([`ImportError::NotFlat`]).
 //!
 //! **Bounds.** Files up to [`LARGEST_IMPORT_FILE`] bytes, [`MOST_LINES`] lines before and [`MOST_PIECES`] after splitting,
 //! [`MOST_VERTICES`] vertices; of SVG [`MOST_NODES`] nodes, [`MOST_NESTED`] deep, [`MOST_STYLE_RULES`] style rules; of FOLD
@@ -32,6 +34,7 @@ mod prune;
 mod source;
 mod split;
 mod svg;
+mod tolerance;
 mod triangles;
 mod unit;
 mod vertices;
@@ -84,7 +87,7 @@ fn plan_of(
     }
     let diagonal = check_extent(low, high)?;
     near_origin(&mut drawing.points, [low, high]);
-    let mut graph = mending::mended(&drawing, merge, diagonal, scale, warnings)?;
+    let mut graph = tolerance::mended(&drawing, merge, diagonal, scale, warnings)?;
     if joins {
         graph.join_straight(graph.mending.tolerance, &drawing.sources, warnings);
     }
@@ -112,7 +115,9 @@ fn check_extent(low: DVec2, high: DVec2) -> Result<f64, ImportError> {
 /// points apart best.
 fn near_origin(points: &mut [DVec2], [low, high]: [DVec2; 2]) {
     if low.abs().max(high.abs()).max_element() > FAR * low.distance(high) {
-        points.iter_mut().for_each(|point| *point -= low);
+        for point in points {
+            *point -= low;
+        }
     }
 }
 

@@ -84,7 +84,9 @@ pub(super) fn planar_graph(
             let mut origins: Vec<_> = drawn.collect();
             origins.resize(points.len(), None);
             let Splitting { mut mending, lost, .. } = splitting;
-            lines.iter().for_each(|line| mending.draw(line, &points));
+            for line in &lines {
+                mending.draw(line, &points);
+            }
             return Ok(Graph { points, origins, lines, mending, lost });
         }
     }

@@ -17,13 +17,12 @@ use crate::{Study, VERSION};
 
 pub use self::collision::{CollisionSection, DecidedBy, PenetrationReport};
 pub use self::compact::{BoxReport, CompactReport, ErrorReport, SkinPlaneReport, SkinReport};
-pub use self::imported::{DroppedCreaseReport, ImportReport, MendingReport};
+pub use self::imported::ImportReport;
 use self::motion::stage_report;
 pub use self::motion::{EnergyReport, EngineReport, SecondsReport, StageReport};
-pub(crate) use self::sheet::not_flat_foldable;
 pub use self::sheet::{
-    DivisionReport, FitReport, FlatFoldingFault, MapReport, PatternReport, ProfileReport,
-    RowReport, UnfoldReport, UnitReport, VertexReport,
+    DivisionReport, FitReport, MapReport, PatternReport, ProfileReport, RowReport, UnfoldReport,
+    UnitReport, VertexReport,
 };
 use self::sheet::{division_report, profile_report, row_reports, unfold_report};
 pub use crate::compute::fold_angles::FoldAngleReport;
@@ -33,6 +32,8 @@ pub use crate::compute::outcome::{Outcome, OutcomeKind};
 pub use crate::compute::path::PathReport;
 pub use crate::compute::stop::{StopCause, StopReport};
 pub use crate::compute::symmetry::{Mirror, SymmetryReport};
+pub use crate::resolve::flat_folding::FlatFoldingFault;
+pub use crate::resolve::mending::{DroppedCreaseReport, MendingReport};
 pub use crate::resolve::names::UnitName;
 
 /// `report.json`. Lengths are in `length_unit`, angles in degrees.

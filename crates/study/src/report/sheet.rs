@@ -9,8 +9,9 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::compact::BoxReport;
+use crate::resolve::flat_folding::{FlatFoldingFault, faults};
 use crate::scene::UnfoldChoice;
-use crate::{ImportedStudy, Study, Unfolding, UnitStudy};
+use crate::{Study, Unfolding, UnitStudy};
 
 /// The most vertices listed that cannot fold flat.
 const MOST_FAULTS: usize = 20;
@@ -109,79 +110,6 @@ pub struct PatternReport {
     pub not_flat_foldable: Vec<FlatFoldingFault>,
 }
 
-/// A vertex that cannot fold flat by itself.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct FlatFoldingFault {
-    /// The index of the vertex in the sheet.
-    pub vertex: u32,
-    /// Its coordinates in the flat sheet, in `length_unit`.
-    pub position: [f64; 2],
-    /// The sums of alternate sector angles in degrees, the smaller first (Kawasaki: both 180); null for an odd number of
-    /// creases.
-    pub alternate_sums_deg: Option<[f64; 2]>,
-    /// Mountain creases minus valley creases (Maekawa: 2 or -2).
-    pub mountains_minus_valleys: i32,
-}
-
-impl FlatFoldingFault {
-    fn words(&self) -> String {
-        let [x, y] = self.position;
-        let sums = match self.alternate_sums_deg {
-            Some([a, b]) => format!("alternate angles sum to {a:.4} and {b:.4} degrees"),
-            None => "an odd number of creases".to_owned(),
-        };
-        let difference = self.mountains_minus_valleys;
-        format!(
-            "vertex {} at ({x:.4}, {y:.4}): {sums}, mountains - valleys = {difference}",
-            self.vertex
-        )
-    }
-
-    /// How far from folding flat: mountains and valleys that do not match count like a straight angle.
-    fn badness(&self) -> f64 {
-        let angle = self.alternate_sums_deg.map_or(180.0, |[a, _]| 180.0 - a);
-        angle + if self.mountains_minus_valleys.abs() == 2 { 0.0 } else { 180.0 }
-    }
-}
-
-/// The vertices of a pattern that cannot fold flat, the worst first.
-fn faults(study: &ImportedStudy) -> Vec<FlatFoldingFault> {
-    let bad = study.pattern.vertices.iter().filter(|vertex| !vertex.is_flat_foldable());
-    let mut faults: Vec<FlatFoldingFault> = bad
-        .map(|check| FlatFoldingFault {
-            vertex: check.vertex,
-            position: study.imported.sheet.vertices[check.vertex as usize].to_array(),
-            alternate_sums_deg: check
-                .alternate_sums()
-                .map(|[a, b]| [a.min(b), a.max(b)].map(f64::to_degrees)),
-            mountains_minus_valleys: check.mountains_minus_valleys,
-        })
-        .collect();
-    faults.sort_by(|a, b| b.badness().total_cmp(&a.badness()).then(a.vertex.cmp(&b.vertex)));
-    faults
-}
-
-/// Names vertices that cannot fold flat in a pattern that is to; `None` if there are none, or if it is not.
-pub(crate) fn not_flat_foldable(study: &ImportedStudy) -> Option<String> {
-    const NAMED: usize = 3;
-    let faults = faults(study);
-    if faults.is_empty() || !study.imported.folds_flat() || study.fold_percent.abs() < 100.0 {
-        return None;
-    }
-    let named: Vec<String> = faults.iter().take(NAMED).map(FlatFoldingFault::words).collect();
-    let more = match faults.len().saturating_sub(NAMED) {
-        0 => String::new(),
-        more => format!("; and {more} more"),
-    };
-    Some(format!(
-        "{} of {} interior vertices are not locally flat-foldable, though all creases are to fold flat (alternate angles sum \
-         to 180 degrees, mountains and valleys differ by 2): {}{more}",
-        faults.len(),
-        study.pattern.vertices.len(),
-        named.join("; ")
-    ))
-}
-
 /// Interior vertices of one type.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct VertexReport {
@@ -277,7 +205,9 @@ impl Study {
     pub(super) fn pattern_report(&self) -> PatternReport {
         let check = self.subject.pattern_check();
         let sheet = self.subject.sheet();
-        let mut faults = self.subject.imported().map_or_else(Vec::new, faults);
+        let imported = self.subject.imported();
+        let faults = imported.map(|study| faults(&study.imported, &study.pattern));
+        let mut faults = faults.unwrap_or_default();
         faults.truncate(MOST_FAULTS);
         let vertices = check.groups().into_iter().map(|g| VertexReport {
             kind: g.kind.name().to_owned(),

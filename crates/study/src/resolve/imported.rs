@@ -8,9 +8,10 @@ use foldmotion_pattern::{
 };
 use foldmotion_solver::{Schedule, ScheduleStep, SolverError, Stage};
 
+use super::flat_folding::not_flat_foldable;
 use super::input::Input;
+use super::mending::MendingReport;
 use super::motion::{schedule_error, steps};
-use crate::report::{MendingReport, not_flat_foldable};
 use crate::scene::pattern::PatternScene;
 use crate::scene::{CreaseGroup, DivisionScene, ProfileScene, SheetScene};
 use crate::{SceneSource, StudyError, input_file};
@@ -43,7 +44,9 @@ impl ImportedStudy {
     /// Lines for the user: what was done about near misses, creases that were left out, vertices that cannot fold flat.
     pub(crate) fn notes(&self) -> Vec<String> {
         let mending = MendingReport::new(&self.imported.mending).line();
-        mending.into_iter().chain(not_flat_foldable(self)).collect()
+        let is_to_fold_flat = self.imported.folds_flat() && self.fold_percent.abs() == 100.0;
+        let faults = is_to_fold_flat.then(|| not_flat_foldable(&self.imported, &self.pattern));
+        mending.into_iter().chain(faults.flatten()).collect()
     }
 
     /// The motion times at which the stages of the file end, except the last.

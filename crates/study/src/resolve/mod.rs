@@ -4,10 +4,12 @@
 
 pub(crate) mod budget;
 mod check;
+pub(crate) mod flat_folding;
 mod gap;
 pub(crate) mod imported;
 pub(crate) mod input;
 mod material;
+pub(crate) mod mending;
 mod motion;
 pub(crate) mod names;
 pub(crate) mod placement;

@@ -23,7 +23,6 @@ use super::{
 };
 use crate::fold::check_vertices;
 use frames::Frames;
-pub(super) use stages::RECORDED_STAGES;
 
 /// Reads a crease pattern from FOLD.
 ///
@@ -34,11 +33,14 @@ pub(super) use stages::RECORDED_STAGES;
 /// - M and V fold by their `edges_foldAngle`, which counts also where its sign is the other one; by −180° and 180° where
 ///   that list is missing; a null angle is a free hinge.
 /// - An angle makes a crease of U, F, J and of edges without assignment; without either an edge is a free hinge.
-/// - Every frame of `file_frames` with angles of its own is a stage; a crease that a stage drives is not free.
+/// - Every frame of `file_frames` with angles of its own is a stage, but for crease patterns, models of a `multiModel` file
+///   and the frames of a recorded motion; a crease that a stage drives is not free.
+/// - Small letters count like capitals, and angles up to 1e-6 degrees like 0.
 ///
-/// Faces that are listed are kept, with their vertices, as facets; otherwise they are traced as in a drawing. Edges
-/// of no face and unused vertices are left out; edges that only faces name are facet lines, or free hinges where the
-/// file lists no edges. Keys that are not read are kept in [`ImportedPattern::keys`].
+/// Faces that are listed are kept, with their vertices, as facets if every edge but facet lines is a side of one and no
+/// side is shorter than the merge tolerance; otherwise they are traced as in a drawing. Unused vertices are left out;
+/// edges that only faces name are facet lines, or free hinges where the file lists no edges. A folded shape is laid out
+/// flat by its faces, to fold by the angles between them. Keys that are not read are kept in [`ImportedPattern::keys`].
 ///
 /// Not found: listed faces that overlap without sharing an edge.
 ///

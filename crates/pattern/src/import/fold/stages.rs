@@ -2,14 +2,12 @@
 
 use std::f64::consts::PI;
 
+use super::super::imported::RECORDED_STAGES;
 use super::super::warning::{WarningKind, Warnings};
 use super::super::{ImportError, ImportedPattern, MOST_STAGE_ANGLES, PatternStage, Source};
 use super::FoldPattern;
 use super::edges::{check_angles, check_count};
 use super::frames::Frames;
-
-/// The key of a recorded motion with the fold angles at the end of each of its stages.
-pub(in super::super) const RECORDED_STAGES: &str = "foldmotion:stages";
 
 /// A stage for every frame with angles of its own, after those that the file of a recorded motion lists.
 pub(super) fn stages(
