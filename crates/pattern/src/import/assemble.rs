@@ -27,8 +27,7 @@ pub(super) struct Assembled {
 /// Cuts the facets into triangles, opens the cuts, and leaves out points of no facet.
 ///
 /// # Errors
-/// [`ImportError::Facet`], [`ImportError::NonManifold`], [`ImportError::Overlap`], [`ImportError::BorderInside`],
-/// [`ImportError::Disconnected`].
+/// [`ImportError::Facet`], [`ImportError::NonManifold`], [`ImportError::Overlap`], [`ImportError::Disconnected`].
 pub(super) fn assemble(plan: &Plan, warnings: &mut Warnings) -> Result<Assembled, ImportError> {
     let lines: BTreeMap<[u32; 2], u32> =
         (0..).zip(&plan.lines).map(|(i, l)| (l.key(), i)).collect();
@@ -41,7 +40,7 @@ pub(super) fn assemble(plan: &Plan, warnings: &mut Warnings) -> Result<Assembled
     let vertices: Vec<_> = vertex_points.iter().map(|&p| plan.points[p as usize]).collect();
     split_again(&mut corners, &face_facets, &vertices);
     let assembly = Assembly { plan, lines, vertex_points: &vertex_points };
-    let (edges, edge_lines) = assembly.edges(&corners, warnings)?;
+    let (edges, edge_lines) = assembly.edges(&corners, warnings);
     let drawn = edges.iter().zip(&edge_lines).filter(|(_, line)| line.is_some());
     let lengths = drawn.map(|(edge, _)| {
         let [a, b] = edge.vertices.map(|v| vertices[v as usize]);
@@ -142,7 +141,7 @@ impl Assembly<'_> {
         &self,
         corners: &[[u32; 3]],
         warnings: &mut Warnings,
-    ) -> Result<(Vec<Edge>, Vec<Option<u32>>), ImportError> {
+    ) -> (Vec<Edge>, Vec<Option<u32>>) {
         let sides: Sides = sides(corners);
         let point = |v: u32| self.vertex_points[v as usize];
         let line = |ends: [u32; 2]| {
@@ -166,7 +165,7 @@ impl Assembly<'_> {
                 start.map(|s| s / 3)
             };
             let faces = [on(true), on(false)];
-            let assignment = self.assignment(drawn, starts.len() == 2, warnings)?;
+            let assignment = self.assignment(drawn, starts.len() == 2, warnings);
             edges.push(Edge {
                 vertices: [from, to],
                 assignment,
@@ -180,7 +179,7 @@ impl Assembly<'_> {
                 faces,
             });
         }
-        Ok((edges, order.into_iter().map(|(line, ..)| line).collect()))
+        (edges, order.into_iter().map(|(line, ..)| line).collect())
     }
 
     fn assignment(
@@ -188,23 +187,22 @@ impl Assembly<'_> {
         line: Option<Line>,
         is_joined: bool,
         warnings: &mut Warnings,
-    ) -> Result<Assignment, ImportError> {
+    ) -> Assignment {
         let Some(line) = line else {
             // A side without a line at the edge: of a face in a file that lists no such edge.
-            return Ok(if is_joined { Assignment::Facet } else { Assignment::Border });
+            return if is_joined { Assignment::Facet } else { Assignment::Border };
         };
         let source = &self.plan.sources[line.source as usize];
         match (line.role, is_joined) {
-            (Role::Border, true) => Err(ImportError::BorderInside { element: source.clone() }),
-            (Role::Cut, true) => {
+            (Role::Border | Role::Cut, true) => {
                 warnings.add(WarningKind::ClosedCut, source);
-                Ok(Assignment::Free)
+                Assignment::Free
             }
-            (role, true) => Ok(role.assignment()),
-            (Role::Border | Role::Cut, false) => Ok(Assignment::Border),
+            (role, true) => role.assignment(),
+            (Role::Border | Role::Cut, false) => Assignment::Border,
             (_, false) => {
                 warnings.add(WarningKind::MadeBorder, source);
-                Ok(Assignment::Border)
+                Assignment::Border
             }
         }
     }

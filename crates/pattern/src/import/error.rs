@@ -6,6 +6,13 @@ use thiserror::Error;
 use super::source::{Source, listed};
 use crate::{FoldError, FrameNumber};
 
+impl ImportError {
+    /// Whether another merge tolerance may help.
+    pub(super) fn is_tangle(&self) -> bool {
+        matches!(self, Self::Tangled { .. })
+    }
+}
+
 /// Errors of importing a crease pattern; each names the elements, the value found and what would be right.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
@@ -97,7 +104,7 @@ pub enum ImportError {
     /// A pattern too small, too large, or too far from the origin.
     #[error(
         "the pattern is {diagonal:e} across and reaches {farthest:e} from the origin: its diagonal must lie between 1e-30 \
-         and 1e30, and the origin no more than a million diagonals away"
+         and 1e30, and the origin no more than a thousand million diagonals away"
     )]
     Extent {
         /// The diagonal of the drawing.
@@ -111,13 +118,21 @@ pub enum ImportError {
     /// Lines that bound nothing.
     #[error("the lines bound no facet: the pattern needs a closed border (#000 in SVG, B in FOLD)")]
     NoFaces,
-    /// A border with the sheet on both sides.
+    /// Most creases would be left out.
     #[error(
-        "{element} is a border with the sheet on both sides: draw a cut (#0f0 in SVG, C in FOLD) or a crease instead"
+        "of creases {} long, {} would be left out, for they end nowhere ({}): lines that miss each other by more than {} \
+         do not meet; set pattern.vertex_tolerance to more than the largest miss",
+        Number(*length), Number(*dropped), listed(.sources), Number(*tolerance)
     )]
-    BorderInside {
-        /// The line with the error.
-        element: Source,
+    MostDropped {
+        /// The length of the creases that would be left out, in units of the file.
+        dropped: f64,
+        /// The length of all creases, in units of the file.
+        length: f64,
+        /// The tolerance of merging, in units of the file.
+        tolerance: f64,
+        /// The first of the creases.
+        sources: Vec<Source>,
     },
     /// Splitting lines does not come to an end.
     #[error(
@@ -211,16 +226,24 @@ pub enum ImportError {
         /// The fold angle, degrees.
         degrees: f64,
     },
+    /// The stages of a recorded motion cannot be read.
+    #[error(
+        "foldmotion:stages: {message}; a list of lists of fold angles is needed, one entry for each edge"
+    )]
+    RecordedStages {
+        /// What is wrong.
+        message: String,
+    },
     /// A unit of length that FOLD does not know.
     #[error("frame_unit is {found:?}: unit, in, pt, m, cm, mm, um and nm are known")]
     Unit {
         /// The text found there.
         found: String,
     },
-    /// A shape that is not flat.
+    /// A shape that is not flat, without faces by which it could be laid out flat.
     #[error(
-        "{frame} is not flat: vertex {vertex} lies {height:e} off the plane of the others, more than {limit:e}; only a \
-         flat crease pattern can be folded, in the key frame or in a frame of the class creasePattern"
+        "{frame} is not flat: vertex {vertex} lies {height:e} off the plane of the others, more than {limit:e}; give the \
+         flat pattern in a frame of the class creasePattern, or faces_vertices, by which the shape is unfolded"
     )]
     NotFlat {
         /// The frame with the error.
@@ -229,6 +252,22 @@ pub enum ImportError {
         vertex: usize,
         /// The distance of that vertex from the plane.
         height: f64,
+        /// The largest distance allowed.
+        limit: f64,
+    },
+    /// A folded shape whose facets cannot be laid out flat side by side.
+    #[error(
+        "{frame} is folded in space and cannot be laid out flat: laid side by side, its faces place vertex {vertex} at \
+         points {gap:e} apart, more than {limit:e}; cut edges (C) open the sheet, and a frame of the class \
+         creasePattern gives its flat pattern"
+    )]
+    NotDevelopable {
+        /// The frame with the shape.
+        frame: FrameNumber,
+        /// The vertex that two faces place apart.
+        vertex: usize,
+        /// How far apart.
+        gap: f64,
         /// The largest distance allowed.
         limit: f64,
     },

@@ -29,18 +29,23 @@ pub enum MergeTolerance {
     Relative(f64),
     /// In the drawing's own units, before it is scaled to its physical size: Origami Simulator takes 3.
     Absolute(f64),
+    /// From the drawing, between a millionth of the diagonal and 1/200: `least` unless another loses fewer lines.
+    Chosen {
+        /// The tolerance of a drawing without near misses, in parts of the diagonal.
+        least: f64,
+    },
 }
 
 impl MergeTolerance {
-    /// For drawings: a tenth of a thousandth of the diagonal, 0.03 mm on a sheet of paper.
-    pub const DRAWING: Self = Self::Relative(1e-4);
+    /// For drawings: at least a tenth of a thousandth of the diagonal, 0.03 mm on a sheet of paper.
+    pub const DRAWING: Self = Self::Chosen { least: 1e-4 };
     /// For files that list their vertices.
-    pub const LISTED: Self = Self::Relative(1e-9);
+    pub const LISTED: Self = Self::Chosen { least: 1e-6 };
 
     /// The length, for a drawing with this diagonal whose units are `scale` long.
     pub(super) fn length(self, diagonal: f64, scale: f64) -> Result<f64, ImportError> {
         let relative = match self {
-            Self::Relative(part) => part,
+            Self::Relative(part) | Self::Chosen { least: part } => part,
             Self::Absolute(length) => length * scale / diagonal,
         };
         // Relative bounds keep every vertex apart in f64 and the drawing from falling into one.

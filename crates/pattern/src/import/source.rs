@@ -14,6 +14,8 @@ pub enum Source {
     FoldFace(u32),
     /// An entry of `vertices_coords`.
     FoldVertex(u32),
+    /// The key frame of a FOLD file.
+    KeyFrame,
     /// An element of `file_frames`.
     FoldFrame(u32),
     /// An element of an SVG.
@@ -42,6 +44,7 @@ impl fmt::Display for Source {
             Self::FoldEdge(index) => write!(f, "edge {index}"),
             Self::FoldFace(index) => write!(f, "face {index}"),
             Self::FoldVertex(index) => write!(f, "vertex {index}"),
+            Self::KeyFrame => write!(f, "the key frame"),
             Self::FoldFrame(index) => write!(f, "file_frames[{index}]"),
             Self::Svg { tag, id, line, column } => match id {
                 Some(id) => write!(f, "<{tag} id={id:?}> (line {line})"),

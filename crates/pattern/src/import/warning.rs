@@ -35,6 +35,8 @@ pub enum WarningKind {
     Outside,
     /// Lines at the edge of the sheet are its border, whatever they were drawn as.
     MadeBorder,
+    /// Border lines with the sheet on both sides are cuts.
+    BorderInside,
     /// Cuts that both ends hold together cannot open and act as free hinges.
     ClosedCut,
     /// Edges whose fold angle has the other sign than their assignment: the angle counts.
@@ -43,14 +45,22 @@ pub enum WarningKind {
     MadeFree,
     /// Edges without assignment or angle are free hinges.
     Unassigned,
+    /// The listed faces do not fit the edges: the facets are found from the edges.
+    StaleFaces,
     /// Edges that belong to no face are left out.
     NoFace,
-    /// Vertices that belong to no face are left out.
+    /// Vertices at which no line ends are left out.
     UnusedVertex,
     /// Faces that were listed clockwise were turned over.
     Turned,
     /// Frames with other edges than the pattern are no stages.
     OtherFrame,
+    /// Frames that are patterns themselves are no stages.
+    Alternative,
+    /// The frames of a recorded motion are no stages.
+    Recorded,
+    /// A folded shape is unfolded: the angles between its facets are its fold angles.
+    Unfolded,
 }
 
 impl WarningKind {
@@ -67,15 +77,24 @@ impl WarningKind {
             Self::Joined => "joined into one straight line",
             Self::Outside => "left out, for it lies beside the sheet or in a hole",
             Self::MadeBorder => "made border, for it lies at the edge of the sheet",
+            Self::BorderInside => "made a cut, for it is a border with the sheet on both sides",
             Self::ClosedCut => {
                 "made a free hinge: both ends of the cut hold together, so that it cannot open"
             }
             Self::OtherSign => "folded by its angle, whose sign contradicts its assignment",
             Self::MadeFree => "made a free hinge, for its fold angle is null",
             Self::Unassigned => "made a free hinge, for it has neither assignment nor angle",
+            Self::StaleFaces => {
+                "not a side of the listed faces, which are left out: the facets follow from the edges"
+            }
             Self::NoFace | Self::UnusedVertex => "left out, for it belongs to no face",
             Self::Turned => "turned over, for it was listed clockwise",
             Self::OtherFrame => "no stage, for it has other edges than the pattern",
+            Self::Alternative => "no stage, for it is a crease pattern or a model of its own",
+            Self::Recorded => "no stage, for it is a frame of a recorded motion",
+            Self::Unfolded => {
+                "folded in space: laid out flat, to fold by the angles between its facets"
+            }
         }
     }
 }
@@ -106,6 +125,13 @@ pub(super) struct Warnings {
 impl Warnings {
     pub(super) fn add(&mut self, kind: WarningKind, source: &Source) {
         self.found.entry(kind).or_default().insert(source.clone());
+    }
+
+    /// Adds those found elsewhere.
+    pub(super) fn append(&mut self, others: Self) {
+        for (kind, sources) in others.found {
+            self.found.entry(kind).or_default().extend(sources);
+        }
     }
 
     /// The warnings by kind.

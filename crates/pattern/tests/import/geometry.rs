@@ -112,14 +112,15 @@ fn ends_that_nearly_meet_are_merged_within_the_tolerance_only() {
     assert!(warned(&imported, WarningKind::Merged) > 0);
     let exact =
         ImportOptions { merge: Some(MergeTolerance::Relative(1e-6)), ..ImportOptions::default() };
-    let imported = import_with(exact, &body).unwrap();
-    assert_eq!((imported.sheet.facets.len(), warned(&imported, WarningKind::Stray)), (1, 2));
+    let error = import_with(exact, &body).unwrap_err();
+    assert!(matches!(error, ImportError::MostDropped { .. }), "{error}");
     // Origami Simulator's 3 units.
     let body = square(&line([50.0, 2.0, 50.0, 98.0], "red"));
     let simulator =
         ImportOptions { merge: Some(MergeTolerance::Absolute(3.0)), ..ImportOptions::default() };
     assert_eq!(import_with(simulator, &body).unwrap().sheet.facets.len(), 2);
-    assert_eq!(import(&body).sheet.facets.len(), 1);
+    let error = import_with(ImportOptions::default(), &body).unwrap_err();
+    assert!(error.to_string().contains("pattern.vertex_tolerance"), "{error}");
     for merge in [
         MergeTolerance::Relative(0.0),
         MergeTolerance::Relative(f64::NAN),
@@ -198,11 +199,21 @@ fn nested_holes_and_islands_are_distinguished() {
 }
 
 #[test]
-fn a_border_with_the_sheet_on_both_sides_is_refused_by_element() {
-    let body = square("<path id=\"middle\" d=\"M50 0V100\" stroke=\"black\"/>");
+fn a_border_with_the_sheet_on_both_sides_is_a_cut() {
+    for slit in ["M50 0V60", "M50 0V40M50 40V60"] {
+        let drawn = |colour: &str| {
+            let crease = line([50.0, 60.0, 50.0, 100.0], "red");
+            import(&square(&format!("<path d=\"{slit}\" stroke=\"{colour}\"/>{crease}")))
+        };
+        let (border, cut) = (drawn("black"), drawn("#0f0"));
+        assert_eq!((&border.sheet, &border.targets), (&cut.sheet, &cut.targets));
+        assert_eq!(warned(&border, WarningKind::BorderInside), 1);
+        assert_eq!(warned(&cut, WarningKind::BorderInside), 0);
+    }
+    // All the way across it parts the sheet.
+    let body = square("<path d=\"M50 0V100\" stroke=\"black\"/>");
     let error = import_with(ImportOptions::default(), &body).unwrap_err();
-    assert!(matches!(error, ImportError::BorderInside { .. }), "{error}");
-    assert!(error.to_string().contains("middle"), "{error}");
+    assert!(matches!(error, ImportError::Disconnected { pieces: 2, .. }), "{error}");
 }
 
 #[test]

@@ -32,6 +32,8 @@ pub use crate::compute::outcome::{Outcome, OutcomeKind};
 pub use crate::compute::path::PathReport;
 pub use crate::compute::stop::{StopCause, StopReport};
 pub use crate::compute::symmetry::{Mirror, SymmetryReport};
+pub use crate::resolve::flat_folding::FlatFoldingFault;
+pub use crate::resolve::mending::{DroppedCreaseReport, MendingReport};
 pub use crate::resolve::names::UnitName;
 
 /// `report.json`. Lengths are in `length_unit`, angles in degrees.

@@ -16,7 +16,7 @@ impl Report {
         self.write_subject(&mut out);
         let _ = writeln!(
             out,
-            "pattern: {}developable, {}flat-foldable; {} vertices, {} facets",
+            "pattern: {}developable, {}locally flat-foldable; {} vertices, {} facets",
             if self.pattern.developable { "" } else { "not " },
             if self.pattern.flat_foldable { "" } else { "not " },
             self.pattern.vertex_count,

@@ -6,9 +6,11 @@ use foldmotion_pattern::{
     Curves, ImportError, ImportOptions, ImportedPattern, LARGEST_IMPORT_FILE, MergeTolerance,
     PatternCheck, import_fold, import_svg,
 };
-use foldmotion_solver::{Schedule, ScheduleStep, Stage};
+use foldmotion_solver::{Schedule, ScheduleStep, SolverError, Stage};
 
+use super::flat_folding::not_flat_foldable;
 use super::input::Input;
+use super::mending::MendingReport;
 use super::motion::{schedule_error, steps};
 use crate::scene::pattern::PatternScene;
 use crate::scene::{CreaseGroup, DivisionScene, ProfileScene, SheetScene};
@@ -37,6 +39,14 @@ impl ImportedStudy {
     /// The fold angle of each edge at the end of the motion.
     pub(crate) fn end_angles(&self) -> &[f64] {
         self.waypoints.last().map_or(&[], Vec::as_slice)
+    }
+
+    /// Lines for the user: what was done about near misses, creases that were left out, vertices that cannot fold flat.
+    pub(crate) fn notes(&self) -> Vec<String> {
+        let mending = MendingReport::new(&self.imported.mending).line();
+        let is_to_fold_flat = self.imported.folds_flat() && self.fold_percent.abs() == 100.0;
+        let faults = is_to_fold_flat.then(|| not_flat_foldable(&self.imported, &self.pattern));
+        mending.into_iter().chain(faults.flatten()).collect()
     }
 
     /// The motion times at which the stages of the file end, except the last.
@@ -77,6 +87,10 @@ pub(crate) fn imported(
         return Err(input.error("pattern.fold_percent", "must be between -100 and 100"));
     }
     let imported = read_pattern(input, scene)?;
+    if !imported.has_creases() {
+        let message = "the pattern has no crease inside its border: draw one (#f00 or #00f in SVG, M or V in FOLD)";
+        return Err(input.error("pattern.file", message));
+    }
     let unit_name = match scene.unit {
         Some(unit) => unit.name(),
         None => imported.unit.name(),
@@ -104,6 +118,17 @@ pub(crate) fn imported_schedule(
         schedule = schedule.with_waypoints(sheet, &study.waypoints)?;
     }
     schedule.with_steps(sheet, &imported_steps(input)?).map_err(|e| schedule_error(input, e))
+}
+
+/// An error of the mechanical model of an imported pattern: edges and triangles that are too small are the pattern's.
+pub(crate) fn model_error(input: &Input<'_>, error: SolverError) -> StudyError {
+    let is_of_pattern = input.scene.pattern.is_some()
+        && matches!(error, SolverError::DegenerateEdge { .. } | SolverError::DegenerateFace { .. });
+    if is_of_pattern {
+        let message = format!("{error}: a larger tolerance merges its ends");
+        return input.error("pattern.vertex_tolerance", message);
+    }
+    StudyError::Solver(error)
 }
 
 /// Refuses keys that do not apply to an imported pattern.

@@ -298,7 +298,7 @@ pub struct MotionScene {
     #[schemars(extend("x-default" = "true with the quasi-static engine"))]
     pub contact: Option<bool>,
     /// The closest approach of layers. It has to fit next to the thinnest part of the sheet.
-    #[schemars(extend("x-default" = "1e-3, or less if a pattern has small facets", "x-unit" = "h, or the mean edge of a pattern", "minimum" = 1e-06))]
+    #[schemars(extend("x-default" = "1e-3, or what fits next to the thinnest part of a pattern", "x-unit" = "h, or the mean edge of a pattern", "minimum" = 1e-06))]
     pub gap: Option<f64>,
     /// What the gap shrinks to in the last tenth of stage fold, so that the compact box meets the closed form. The same
     /// as motion.gap keeps the gap. Where contact keeps creases from their targets the gap does not shrink.
@@ -393,7 +393,8 @@ impl EngineChoice {
 #[derive(Debug, Clone, Default, PartialEq, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct CheckScene {
-    /// The tolerance τ of the verdict: facets that overlap by no more than this touch.
+    /// The tolerance τ of the verdict: facets that overlap by no more than this touch. In a pattern whose thin parts lower
+    /// the default of motion.gap below 1e-5, the default is a tenth of that gap.
     #[schemars(extend("default" = 1e-6, "x-unit" = "h, or the mean edge of a pattern", "minimum" = 0, "maximum" = 0.01))]
     pub touch_tolerance: Option<f64>,
     /// If more pairs of triangles than this penetrate, later frames are not checked; 0 means no limit.

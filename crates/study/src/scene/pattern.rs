@@ -25,7 +25,7 @@ pub struct PatternScene {
     #[schemars(extend("default" = true))]
     pub stages: Option<bool>,
     /// Ends of lines that are at most this far apart are the same vertex.
-    #[schemars(extend("x-default" = "1e-4 of the diagonal of an SVG, 1e-9 of that of a FOLD file", "x-unit" = "lengths of the file"))]
+    #[schemars(extend("x-default" = "chosen from the drawing: 1e-4 to 1/200 of the diagonal, from 1e-6 on in a FOLD file", "x-unit" = "lengths of the file"))]
     pub vertex_tolerance: Option<f64>,
     /// How strokes and elements without a meaning in a crease pattern are treated.
     #[serde(default, deserialize_with = "choice::optional")]

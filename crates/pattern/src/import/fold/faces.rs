@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use glam::DVec2;
 
 use super::super::drawing::{Line, Role};
+use super::super::mending::Mending;
 use super::super::plan::Plan;
 use super::super::warning::{WarningKind, Warnings};
 use super::super::{ImportError, Source};
@@ -40,11 +41,18 @@ pub(super) fn plan(
     let mut sources: Vec<Source> = (0..edges).map(Source::FoldEdge).collect();
     let mut lines: Vec<Line> = Vec::with_capacity(sides.len());
     let mut of_ends: BTreeMap<[u32; 2], Line> = BTreeMap::new();
-    for line in super::edges::lines(pattern, &sides, warnings) {
+    let mut mending = Mending::default();
+    for mut line in super::edges::lines(pattern, &sides, warnings) {
+        mending.draw(&line, &points);
         let source = &sources[line.source as usize];
         if !sides.contains_key(&line.key()) {
             warnings.add(WarningKind::NoFace, source);
+            mending.drop(&line, &points, &sources);
             continue;
+        }
+        if line.role == Role::Border && sides[&line.key()].len() > 1 {
+            warnings.add(WarningKind::BorderInside, source);
+            line.role = Role::Cut;
         }
         match of_ends.get(&line.key()) {
             None => {
@@ -72,7 +80,7 @@ pub(super) fn plan(
         sources.push(source);
     }
     let origins = (0..points.len() as u32).map(Some).collect();
-    Ok(Plan { points, origins, lines, facets, sources })
+    Ok(Plan { points, origins, lines, facets, sources, mending })
 }
 
 fn twice_area(face: &[u32], points: &[DVec2]) -> f64 {

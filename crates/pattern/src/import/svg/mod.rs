@@ -77,6 +77,7 @@ pub fn import_svg(bytes: &[u8], options: &ImportOptions) -> Result<ImportedPatte
         fixed_facets: Vec::new(),
         edge_sources: lines.map(|l| Some(plan.lines[l? as usize].source)).collect(),
         sources: plan.sources,
+        mending: plan.mending,
         vertex_sources: vec![None; vertex_points.len()],
         shape: None,
         warnings: warnings.finish(),
