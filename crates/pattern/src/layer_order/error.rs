@@ -102,3 +102,10 @@ pub enum LayerError {
         instead: &'static str,
     },
 }
+
+impl LayerError {
+    /// Whether only the size of the pattern stands in the way, so that nothing is said about its flat state.
+    pub fn is_of_size(&self) -> bool {
+        matches!(self, Self::TooMany { .. })
+    }
+}
