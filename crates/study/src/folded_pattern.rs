@@ -41,7 +41,7 @@ impl FoldedPattern {
         Ok(Some(Self { title, study }))
     }
 
-    /// Folds the pattern flat and writes `folded.fold` and `folded.svg` into a folder if its layers have an order. Returns a
+    /// Folds the pattern flat and writes `folded.fold` and `folded.svg` into a folder if an order of its layers is proved. Returns a
     /// summary for the terminal: whether an order exists and is proved, or why not.
     ///
     /// # Errors
@@ -49,7 +49,8 @@ impl FoldedPattern {
     pub fn write<'a>(&self, destination: impl Into<Destination<'a>>) -> Result<String, StudyError> {
         let found = FoundState::find(&self.study.imported, self.study.end_angles());
         let mut summary = self.summary(&found.report);
-        let Some((state, order)) = &found.ordered else {
+        let is_proved = found.report.exists == Some(true);
+        let Some((state, order)) = found.ordered.as_ref().filter(|_| is_proved) else {
             return Ok(summary);
         };
         let mut results = Results::open(destination.into(), Command::Pattern, Some(FOLDED_FOLD))?;

@@ -12,17 +12,20 @@ use super::{FlatState, LayerError};
 use crate::{ImportedPattern, LayerOrder};
 
 /// How far the search goes.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LayerOptions {
     /// The most conditions that are looked at before the search ends undecided.
     pub steps: u64,
     /// The most orders of each independent component that are counted; at least 1.
     pub solutions: u64,
+    /// What [`FlatState::width`] is multiplied by: where facets are hardly wider than that, another width may tell them
+    /// apart.
+    pub width: f64,
 }
 
 impl Default for LayerOptions {
     fn default() -> Self {
-        Self { steps: 50_000_000, solutions: 1 }
+        Self { steps: 50_000_000, solutions: 1, width: 1.0 }
     }
 }
 
@@ -79,7 +82,8 @@ impl FlatFolding {
         targets: &[f64],
         options: &LayerOptions,
     ) -> Result<Self, LayerError> {
-        let state = FlatState::new(&imported.sheet, targets)?;
+        let mut state = FlatState::new(&imported.sheet, targets)?;
+        state.width *= options.width;
         Self::of_state(state, &imported.face_orders, options)
     }
 

@@ -38,7 +38,7 @@ fn the_facets_named_are_those_that_cannot_be_ordered() {
 #[test]
 fn a_search_that_runs_out_of_steps_says_so() {
     let strip = of_fold(&strip(&[1.0; 8], "UUUUUUU"));
-    let options = LayerOptions { steps: 10, solutions: 1 };
+    let options = LayerOptions { steps: 10, ..LayerOptions::default() };
     let folding = FlatFolding::find(&strip, &strip.targets, &options).unwrap();
     assert!(matches!(folding.found, FoundLayers::Undecided { steps } if steps >= 10));
     assert!(matches!(find(&strip).unwrap().found, FoundLayers::Order { .. }));

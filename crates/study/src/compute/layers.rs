@@ -7,7 +7,7 @@
 
 use std::f64::consts::PI;
 
-use foldmotion_check::{Checker, CollisionOptions, CollisionReport, LayerProof, Verdict};
+use foldmotion_check::{CheckError, Checker, CollisionOptions, Verdict, flat_layers};
 use foldmotion_pattern::{
     ConditionCounts, FlatFolding, FlatState, FoundLayers, ImportedPattern, LayerOptions, LayerOrder,
 };
@@ -17,6 +17,8 @@ use serde::{Deserialize, Serialize};
 
 /// The proofs count overlaps up to this multiple of their tolerance as none.
 const NARROW: f64 = 10.0;
+/// The most orders of two triangles that the second proof is run on, which takes seconds then.
+const MOST_VERIFIED: usize = 10_000;
 /// The most facets that are named.
 const SHOWN: usize = 12;
 /// Targets may differ from ±180° by this much, in radians.
@@ -26,7 +28,7 @@ const FLAT_ANGLE: f64 = 1e-6;
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum LayerProofName {
-    /// The first proof, that of `foldmotion check`.
+    /// The first proof: the rules of flat foldings as `foldmotion check` tests them.
     Check,
     /// The second proof, that of `foldmotion check --verify`.
     Verify,
@@ -42,7 +44,7 @@ impl LayerProofName {
 }
 
 /// The flat state of a crease pattern, found by reflections and the rules of flat folding, without a motion.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 pub struct LayerOrderReport {
     /// Whether the flat state exists: the reflections close and its layers have an order. Null if it was not decided.
     pub exists: Option<bool>,
@@ -54,11 +56,13 @@ pub struct LayerOrderReport {
     /// The number of independent components that were searched after all that follows from mountains and valleys. Null
     /// if the pattern does not fold flat.
     pub components: Option<usize>,
-    /// The proofs that confirm the order that was found, neither of which shares the definition of the search.
+    /// The proofs that confirm the order that was found, neither of which shares the definition of the search. The second
+    /// is run up to 10000 orders of two triangles.
     pub proved_by: Vec<LayerProofName>,
     /// Facets that cannot be put in order whatever the others do; empty if an order exists.
     pub contradicting: Vec<u32>,
-    /// Why there is no flat state, or why it was not decided or not proved; null if it is proved by both proofs.
+    /// Why there is no flat state, or why it was not decided, or what the second proof does not confirm; null if every
+    /// proof that was run confirms the order.
     pub reason: Option<String>,
 }
 
@@ -76,24 +80,31 @@ pub(crate) fn are_flat(targets: &[f64]) -> bool {
     targets.iter().all(is_flat) && targets.iter().any(|t| t.abs() > FLAT_ANGLE)
 }
 
+/// By what the width that counts as none is multiplied, in turn, until the order that is found is proved.
+const WIDTHS: [f64; 5] = [1.0, 0.5, 0.25, 2.0, 4.0];
+
 impl FoundState {
     /// Folds a pattern flat, finds an order of its layers and proves it.
+    ///
+    /// Where layers are hardly wider than what counts as none, the search and the proofs may not see the same ones. Then
+    /// other widths are tried; if no order is proved at any, the result is that of the first.
     pub(crate) fn find(imported: &ImportedPattern, targets: &[f64]) -> Self {
-        let mut report = LayerOrderReport {
-            exists: Some(false),
-            pairs: None,
-            conditions: None,
-            components: None,
-            proved_by: Vec::new(),
-            contradicting: Vec::new(),
-            reason: None,
-        };
-        let folding = match FlatFolding::find(imported, targets, &LayerOptions::default()) {
+        let first = Self::with_width(imported, targets, WIDTHS[0]);
+        if first.report.pairs.is_none() || first.report.exists == Some(true) {
+            return first;
+        }
+        let others = WIDTHS[1..].iter().map(|&width| Self::with_width(imported, targets, width));
+        let mut proved = others.filter(|found| found.report.exists == Some(true));
+        proved.next().unwrap_or(first)
+    }
+
+    fn with_width(imported: &ImportedPattern, targets: &[f64], width: f64) -> Self {
+        let mut report = LayerOrderReport::default();
+        let options = LayerOptions { width, ..LayerOptions::default() };
+        let folding = match FlatFolding::find(imported, targets, &options) {
             Ok(folding) => folding,
             Err(error) => {
-                if error.is_of_size() {
-                    report.exists = None;
-                }
+                report.exists = (!error.is_of_size()).then_some(false);
                 report.reason = Some(error.to_string());
                 return Self { ordered: None, report };
             }
@@ -107,12 +118,12 @@ impl FoundState {
                 Some((folding.state, order))
             }
             FoundLayers::None { facets, given } => {
+                report.exists = Some(false);
                 report.reason = Some(no_order(&facets, &given));
                 report.contradicting = facets;
                 None
             }
             FoundLayers::Undecided { steps } => {
-                report.exists = None;
                 report.reason = Some(format!(
                     "the search ended after {steps} conditions were looked at; whether an order exists is not decided"
                 ));
@@ -140,16 +151,18 @@ fn no_order(facets: &[u32], given: &[[u32; 2]]) -> String {
 }
 
 impl LayerOrderReport {
-    /// Runs both proofs on an order.
+    /// Runs the proofs on an order: the second one if it is not too large.
     fn prove(&mut self, state: &FlatState, order: &LayerOrder) {
-        self.exists = None;
-        let checked = first_proof(state, order);
-        let verified = checked.and_then(|report| {
-            self.exists = Some(true);
-            self.proved_by.push(LayerProofName::Check);
-            second_proof(state, order, &report)
-        });
-        match verified {
+        if let Err(reason) = first_proof(state, order) {
+            self.reason = Some(reason);
+            return;
+        }
+        self.exists = Some(true);
+        self.proved_by.push(LayerProofName::Check);
+        if order.len() > MOST_VERIFIED {
+            return;
+        }
+        match second_proof(state, order) {
             Ok(()) => self.proved_by.push(LayerProofName::Verify),
             Err(reason) => self.reason = Some(reason),
         }
@@ -174,59 +187,55 @@ impl LayerOrderReport {
     }
 }
 
-/// The first proof of an order, all of whose statements must be proved; otherwise why not.
-fn first_proof(state: &FlatState, order: &LayerOrder) -> Result<CollisionReport, String> {
+/// The first proof: the rules of flat foldings, tested on triangles.
+fn first_proof(state: &FlatState, order: &LayerOrder) -> Result<(), String> {
+    let proof = flat_layers(&state.sheet, &state.frame().positions, order, state.width);
+    if proof.is_proved(state.width) {
+        return Ok(());
+    }
+    let what = match proof.conflicts.first() {
+        Some(conflict) => {
+            let facets = conflict.faces.iter().map(|&face| state.sheet.face_facets[face as usize]);
+            format!("{} of facets {:?}", conflict.rule, facets.collect::<Vec<_>>())
+        }
+        None if proof.stretch > state.width => {
+            format!("an edge is longer or shorter by {:.6}", proof.stretch)
+        }
+        None => "some layers are hardly wider than what counts as none".to_owned(),
+    };
+    Err(format!("an order was found, but the check does not confirm it: {what}"))
+}
+
+/// The second proof, of what the collision check states.
+fn second_proof(state: &FlatState, order: &LayerOrder) -> Result<(), String> {
     let options = CollisionOptions {
         touch_tolerance: state.width / (NARROW * state.sheet.unit_length),
         ..CollisionOptions::default()
     };
-    let failed = |error: &dyn std::fmt::Display| {
-        format!("an order was found, but the check does not confirm it: {error}")
-    };
+    let failed = |error: &CheckError| format!("the collision check does not confirm it: {error}");
     let frame = state.frame();
     let mut checker =
         Checker::new(&state.sheet, &frame, &options).map_err(|error| failed(&error))?;
     checker.claim(order, &|triangle| triangle).map_err(|error| failed(&error))?;
-    let report = checker.finish();
-    if let Some(first) = report.penetrations.first() {
-        return Err(failed(&first_words(state, first.faces, first.kind.name())));
+    let stated = checker.finish();
+    if stated.verdict != Verdict::Touching {
+        return Err(format!(
+            "the collision check does not confirm it: its verdict is {}",
+            stated.verdict
+        ));
     }
-    if let Some(cluster) = report.clusters.iter().find(|c| c.order != LayerProof::Proved) {
-        let words =
-            format!("the order of {} triangles is not known everywhere", cluster.faces.len());
-        return Err(failed(&words));
-    }
-    if !matches!(report.verdict, Verdict::Free | Verdict::Touching) {
-        return Err(failed(&format!("its verdict is {}", report.verdict)));
-    }
-    Ok(report)
-}
-
-fn first_words(state: &FlatState, faces: [u32; 2], kind: &str) -> String {
-    let [f, g] = faces.map(|face| state.sheet.face_facets[face as usize]);
-    format!("facets {f} and {g}, {kind}")
-}
-
-/// The second proof, of what the first one states.
-fn second_proof(
-    state: &FlatState,
-    order: &LayerOrder,
-    stated: &CollisionReport,
-) -> Result<(), String> {
-    let mut verifier = Verifier::new(&state.sheet, state.frame(), stated);
+    let mut verifier = Verifier::new(&state.sheet, frame, &stated);
     verifier.claim(order, &|triangle| triangle);
     let verification = verifier.finish();
     if let Some(refuted) = verification.refuted.first() {
-        return Err(format!(
-            "the second proof finds {} instead of {}",
-            refuted.found, refuted.stated
-        ));
+        let (found, stated) = (&refuted.found, &refuted.stated);
+        return Err(format!("the second proof finds {found} instead of {stated}"));
     }
     match verification.unproved.first() {
         None => Ok(()),
         Some(open) => {
-            let what = first_words(state, open.faces, &open.what);
-            Err(format!("the second proof leaves open: {what}"))
+            let [f, g] = open.faces.map(|face| state.sheet.face_facets[face as usize]);
+            Err(format!("the second proof leaves open, of facets {f} and {g}: {}", open.what))
         }
     }
 }
