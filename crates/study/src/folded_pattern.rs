@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use foldmotion_pattern::{FlatState, FoldHeader, LayerOrder, Motion};
+use foldmotion_pattern::{FlatState, LayerOrder};
 use foldmotion_record::{FigureState, StripOptions, View, strip};
 use glam::DVec3;
 
@@ -56,10 +56,11 @@ impl FoldedPattern {
         let mut results = Results::open(destination.into(), Command::Pattern, Some(FOLDED_FOLD))?;
         results.require_clear(&|name| [FOLDED_FOLD, FOLDED_SVG].contains(&name))?;
         let folder = results.folder().to_owned();
-        let fold = self.fold(state, order);
-        results.write_bytes(FOLDED_FOLD, &fold)?;
+        let creator = format!("foldmotion {VERSION}");
+        let fold = state.fold(order, &self.title, &creator, self.study.unit_name);
+        results.write_bytes(FOLDED_FOLD, fold.as_bytes())?;
         results.write_bytes(FOLDED_SVG, drawing(state, order)?.as_bytes())?;
-        let published = results.publish(Some(&sha256(&fold)), &|_| false)?;
+        let published = results.publish(Some(&sha256(fold.as_bytes())), &|_| false)?;
         for line in published.words() {
             let _ = writeln!(summary, "{line}");
         }
@@ -91,27 +92,6 @@ impl FoldedPattern {
         }
         let _ = writeln!(text, "{}", report.line());
         text
-    }
-
-    /// The pattern as key frame, and its flat state as frame of the class `foldedForm`.
-    fn fold(&self, state: &FlatState, order: &LayerOrder) -> Vec<u8> {
-        let motion = Motion {
-            sheet: state.sheet.clone(),
-            frames: vec![state.frame()],
-            compact_order: order.clone(),
-        };
-        let header = FoldHeader {
-            title: &self.title,
-            creator: &format!("foldmotion {VERSION}"),
-            unit: self.study.unit_name,
-            target_angles: self.study.end_angles(),
-            layer_orders: &[(0, order.clone())],
-            keys: &self.study.imported.keys_of_triangles(),
-        };
-        let mut bytes = Vec::new();
-        // Writing into memory cannot fail.
-        let _ = motion.write_fold(&header, &mut bytes);
-        bytes
     }
 }
 

@@ -17,6 +17,7 @@
 //! | `propagation`, `search` | what follows, and what is guessed |
 //! | `given`, `contradiction` | orders that are given, and a small set of facets that have no order |
 //! | `flat_folding` | all of it in turn |
+//! | `write` | the flat state as FOLD |
 
 mod along_lines;
 mod conditions;
@@ -30,6 +31,7 @@ mod pairs;
 mod pieces;
 mod propagation;
 mod search;
+mod write;
 
 pub use conditions::ConditionCounts;
 pub use error::LayerError;

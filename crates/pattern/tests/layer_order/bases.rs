@@ -160,3 +160,21 @@ fn an_order_does_not_depend_on_where_the_pattern_lies() {
     let [here, there] = [pattern, moved].map(|pattern| find(&pattern).unwrap());
     assert_eq!((here.found, here.conditions), (there.found, there.conditions));
 }
+
+#[test]
+fn a_written_flat_state_is_read_as_the_pattern_with_the_order_that_was_found() {
+    for pattern in [miura(3, 3), bird_base(), waterbomb_base()] {
+        let folding = find(&pattern).unwrap();
+        let FoundLayers::Order { order, .. } = &folding.found else { panic!("no order") };
+        let text = folding.state.fold(order, "title", "creator", "unit");
+        let again = of_fold(&serde_json::from_str(&text).unwrap());
+        assert_eq!(again.stages, []);
+        assert!(again.folds_flat() && again.free_hinges().next().is_none());
+        assert_eq!(again.face_orders.len() * 2, order.len());
+        let refolded = find(&again).unwrap();
+        let FoundLayers::Order { order: same, solutions } = refolded.found else {
+            panic!("no order")
+        };
+        assert_eq!((&same, solutions), (order, Some(1)));
+    }
+}
