@@ -19,11 +19,7 @@ fn map() -> (UnitSheet, Vec<DVec3>) {
 fn proof(units: &UnitSheet, positions: &[DVec3], order: &LayerOrder) -> FlatLayers {
     let mut sheet = units.sheet.clone();
     for (edge, &angle) in sheet.edges.iter_mut().zip(units.compact_angles()) {
-        let folded = if angle > 0.0 {
-            Assignment::Valley
-        } else {
-            Assignment::Mountain
-        };
+        let folded = if angle > 0.0 { Assignment::Valley } else { Assignment::Mountain };
         if edge.is_hinge() {
             let is_flat = angle.abs() < 1.0;
             edge.assignment = if is_flat { Assignment::Facet } else { folded };
