@@ -1,4 +1,4 @@
-//! `foldmotion pattern`: the crease pattern for cutting and folding.
+//! `foldmotion pattern`: the crease pattern for cutting and folding, or the flat state of an imported one.
 
 use std::path::PathBuf;
 
@@ -11,7 +11,8 @@ use foldmotion_study::{
 #[derive(Debug, Args)]
 #[expect(clippy::struct_excessive_bools, reason = "each is a flag of its own")]
 pub(crate) struct PatternArguments {
-    /// The scene file
+    /// The scene file, whose sheet is drawn for cutting; or a crease pattern (FOLD or SVG), which is folded flat: its flat
+    /// state with a proved order of layers, or why there is none. The options of cutting do not apply to a pattern
     pub(crate) scene: PathBuf,
     /// Folder for the results. Default: out/ and the name of the scene
     #[arg(long)]

@@ -165,3 +165,65 @@ fn rows_that_clash_are_named_and_drawn() {
     assert_status(&output, 2);
     assert_eq!(names(&home.path().join("out")), ["own"]);
 }
+
+/// A strip of three pieces of height 1, folded at x = 2 and x = `second`.
+fn letter(second: f64, letters: [&str; 2]) -> String {
+    let edges = [[0, 1], [1, 2], [2, 3], [3, 7], [7, 6], [6, 5], [5, 4], [4, 0], [1, 5], [2, 6]];
+    let mut assignments = vec!["B"; 8];
+    assignments.extend(letters);
+    let x = [0.0, 2.0, second, second + 2.0];
+    let vertices: Vec<[f64; 2]> =
+        [0.0, 1.0].iter().flat_map(|&y| x.iter().map(move |&x| [x, y])).collect();
+    serde_json::json!({
+        "file_spec": 1.2, "vertices_coords": vertices, "edges_vertices": edges,
+        "edges_assignment": assignments, "faces_vertices": [[0, 1, 5, 4], [1, 2, 6, 5], [2, 3, 7, 6]],
+    })
+    .to_string()
+}
+
+#[test]
+fn a_crease_pattern_is_folded_flat_with_a_proved_order_or_the_facets_that_have_none() {
+    let home = tempfile::tempdir().unwrap();
+    std::fs::write(home.path().join("letter.fold"), letter(3.0, ["V", "M"])).unwrap();
+    let output = pattern(home.path(), &["letter.fold"]);
+    assert_status(&output, 0);
+    let said = text(&output.stdout);
+    let line = "folds flat: 3 facets, 3 overlapping pairs, an order of layers exists (proved)";
+    assert!(said.contains(line) && said.contains("by check and verify"), "{said}");
+    let folder = home.path().join("out/letter");
+    assert_eq!(names(&folder), ["folded.fold", "folded.svg"]);
+    let folded = std::fs::read(folder.join("folded.fold")).unwrap();
+    let folded: serde_json::Value = serde_json::from_slice(&folded).unwrap();
+    let frame = &folded["file_frames"][0];
+    assert_eq!(frame["frame_classes"], serde_json::json!(["foldedForm"]));
+    assert!(!frame["faceOrders"].as_array().unwrap().is_empty());
+    let svg = std::fs::read_to_string(folder.join("folded.svg")).unwrap();
+    assert!(svg.contains("from above") && svg.contains("from below"));
+    // The file is itself a pattern with the same flat state, its facets cut into triangles.
+    let again = pattern(home.path(), &["out/letter/folded.fold", "--out", "again"]);
+    let said = text(&again.stdout);
+    assert!(said.contains("an order of layers exists (proved)"), "{said}");
+
+    std::fs::write(home.path().join("long.fold"), letter(3.0, ["V", "V"])).unwrap();
+    let output = pattern(home.path(), &["long.fold"]);
+    assert_status(&output, 0);
+    let said = text(&output.stdout);
+    assert!(
+        said.contains("no order of layers exists: facets 0, 1, 2 cannot be put in order"),
+        "{said}"
+    );
+    assert!(!home.path().join("out/long").exists());
+}
+
+#[test]
+fn a_run_that_ends_short_of_a_flat_state_says_whether_it_exists() {
+    let home = tempfile::tempdir().unwrap();
+    std::fs::write(home.path().join("long.fold"), letter(3.0, ["V", "V"])).unwrap();
+    let output = foldmotion(home.path(), &["run", "long.fold", "--json"]);
+    assert_status(&output, 3);
+    let report: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+    let layers = &report["layer_order"];
+    assert_eq!((&layers["exists"], &layers["pairs"]), (&false.into(), &3.into()), "{layers}");
+    assert_eq!(layers["contradicting"], serde_json::json!([0, 1, 2]));
+    assert!(layers["proved_by"].as_array().unwrap().is_empty());
+}

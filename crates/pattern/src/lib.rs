@@ -17,6 +17,7 @@ mod fold;
 mod folding;
 mod import;
 mod layer_count;
+mod layer_order;
 mod layers;
 mod map;
 mod model;
@@ -46,6 +47,9 @@ pub use import::{
     LengthUnit, MOST_LINES, MOST_NESTED, MOST_NODES, MOST_PIECES, MOST_STAGE_ANGLES,
     MOST_STYLE_RULES, MOST_VERTICES, Mending, MergeTolerance, PatternStage, Source,
     UnknownElements, Warning, WarningKind, import_fold, import_svg,
+};
+pub use layer_order::{
+    ConditionCounts, FlatFolding, FlatState, FoundLayers, LayerError, LayerOptions,
 };
 pub use model::{CaseColumns, NacaSection, ProfileModel, Shape, find as find_model, models};
 pub use motion::{Frame, LayerOrder, Motion};

@@ -33,6 +33,7 @@ mod compute;
 mod digest;
 mod draft;
 mod error;
+mod folded_pattern;
 mod input_file;
 mod opened;
 mod pattern_files;
@@ -55,6 +56,7 @@ pub use compute::series::FrameFigures;
 pub use digest::sha256;
 pub use draft::{Draft, UnitDraft};
 pub use error::StudyError;
+pub use folded_pattern::FoldedPattern;
 pub use foldmotion_pattern::{
     CutError, CutOptions, PaperSize, ProfileModel, models, parse_millimetres,
 };

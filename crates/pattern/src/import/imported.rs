@@ -44,6 +44,9 @@ pub struct ImportedPattern {
     pub mending: Mending,
     /// What was changed or left out, one warning for each kind.
     pub warnings: Vec<Warning>,
+    /// The orders of two facets that a FOLD file gives for the flat state, `faceOrders`: the first lies on the side of the
+    /// second one's front (1) or back (−1).
+    pub face_orders: Vec<(u32, u32, i8)>,
     /// The keys of a FOLD file's key frame that are not read; see [`Self::fold`].
     pub keys: Map<String, Value>,
     /// The numbers of vertices, edges and faces that the FOLD file lists.

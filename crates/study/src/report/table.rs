@@ -54,6 +54,10 @@ impl Report {
         if let Some(stop) = &self.stop {
             let _ = writeln!(out, "{}", stop.line());
         }
+        if let Some(layers) = &self.layer_order {
+            let end = self.path.end_t;
+            let _ = writeln!(out, "{}; the motion got as far as t = {end:.4}", layers.line());
+        }
         self.write_verdict(&mut out);
         self.write_path(&mut out);
         let e = &self.engine;

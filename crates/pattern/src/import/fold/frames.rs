@@ -110,6 +110,19 @@ impl Frames {
         &self.list[0].other
     }
 
+    /// The orders of faces in the flat state: those of `pattern` itself, or of the first frame in the plane z = 0 that has
+    /// some and inherits its faces.
+    pub(super) fn face_orders(&self, pattern: usize) -> &[(u32, u32, i8)] {
+        let is_flat = |frame: usize| {
+            let coordinates = self.coordinates(frame).unwrap_or_default();
+            self.list[frame].faces.is_none() && coordinates.iter().all(|p| p.z == 0.0)
+        };
+        let mut flat = (1..self.list.len()).filter(|&frame| is_flat(frame));
+        let mut own = |frame: usize| Some(frame).filter(|&f| !self.list[f].orders.is_empty());
+        let found = own(pattern).or_else(|| flat.find_map(&mut own));
+        found.map_or(&[], |frame| self.list[frame].orders.as_slice())
+    }
+
     pub(super) fn take_title(&mut self) -> Option<String> {
         self.list[0].title.take()
     }

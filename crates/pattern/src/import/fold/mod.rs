@@ -225,8 +225,22 @@ impl<'a> FoldPattern<'a> {
             shape,
             warnings: Vec::new(),
             keys: keys.clone(),
+            face_orders: self.face_orders(frames),
             listed: [self.coordinates.len(), self.edges.len(), self.faces.len()],
         })
+    }
+}
+
+impl FoldPattern<'_> {
+    /// The orders of facets: none where the file lists no faces, which then are no facets.
+    fn face_orders(&self, frames: &Frames) -> Vec<(u32, u32, i8)> {
+        let faces = self.faces.len();
+        let orders = frames.face_orders(self.frame).iter().copied();
+        let is_order = |&(f, g, sign): &(u32, u32, i8)| {
+            let is_listed = (f as usize) < faces && (g as usize) < faces;
+            is_listed && f != g && sign.abs() == 1
+        };
+        orders.filter(is_order).collect()
     }
 }
 

@@ -82,6 +82,7 @@ pub fn import_svg(bytes: &[u8], options: &ImportOptions) -> Result<ImportedPatte
         shape: None,
         warnings: warnings.finish(),
         keys: serde_json::Map::new(),
+        face_orders: Vec::new(),
         listed: [0; 3],
     })
 }
