@@ -75,7 +75,7 @@ pub(crate) enum Command {
 /// `foldmotion run`.
 #[derive(Debug, Args)]
 pub(crate) struct RunArguments {
-    /// The scene file, or a crease pattern: .fold, or .svg in Origami Simulator's colours
+    /// The scene file, or a crease pattern: .fold, .svg, .cp, .opx, .orh, .obj or .dxf
     pub(crate) scene: PathBuf,
     /// Folder for the results. Default: out/ and the name of the file
     #[arg(long)]

@@ -62,7 +62,9 @@ pub use foldmotion_solver::Snapshot;
 pub use foldmotion_solver::dynamic::Device;
 pub use input_file::require_file;
 pub use opened::{OpenedFile, OpenedMotion};
-pub use pattern_files::{PatternFormat, PatternOptions, PatternScale, PatternStudy};
+pub use pattern_files::{
+    PatternFormat, PatternOptions, PatternScale, PatternStudy, PatternSubject,
+};
 pub use progress::{Phase, Progress, Watch};
 pub use recording::{MotionRecord, Quantity, Reproduction, record_file, reproduce_file};
 pub use report::Report;

@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use glam::DVec3;
 use serde_json::{Map, Value};
 
-use super::{ImportError, LengthUnit, Source, Warning};
+use super::{ImportError, LengthUnit, Names, Source, Warning};
 use crate::{Assignment, Sheet};
 
 /// A crease pattern read from a file: the sheet, and what it is to fold to.
@@ -30,6 +30,8 @@ pub struct ImportedPattern {
     pub fixed_facets: Vec<u32>,
     /// The elements of the file that the edges come from.
     pub sources: Vec<Source>,
+    /// The names of each of `sources`; empty for FOLD.
+    pub names: Vec<Names>,
     /// The index in `sources` of every edge; `None` for those that cut facets into triangles.
     pub edge_sources: Vec<Option<u32>>,
     /// The FOLD vertex every vertex comes from; `None` if lines were drawn or split.

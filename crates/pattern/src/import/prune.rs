@@ -23,7 +23,8 @@ impl Graph {
         at
     }
 
-    /// Leaves out lines that end nowhere, again and again; cuts may end inside a facet.
+    /// Leaves out lines that end nowhere, again and again; cuts may end inside a facet, and
+    /// border lines there are cuts.
     pub(super) fn drop_strays(&mut self, sources: &[Source], warnings: &mut Warnings) {
         let mut at = self.lines_at();
         let mut is_dropped = vec![false; self.lines.len()];
@@ -34,7 +35,7 @@ impl Graph {
                 continue;
             };
             let line = &self.lines[index as usize];
-            if line.role == Role::Cut {
+            if matches!(line.role, Role::Cut | Role::Border) {
                 continue;
             }
             is_dropped[index as usize] = true;

@@ -15,6 +15,20 @@ const MOST_NAMED: usize = 1_000;
 pub enum WarningKind {
     /// A stroke or an element without a meaning is left out.
     Ignored,
+    /// Auxiliary lines, whose colour is none of the six, are left out.
+    Auxiliary,
+    /// A colour that is none of the six was read as the one with the nearest hue.
+    NearColour,
+    /// Filled outlines without a stroke are the border, for no line is.
+    FilledBorder,
+    /// The outline of the lines was added as border, for there was none.
+    AddedBorder,
+    /// Curves became chords, and the facets beside curved creases are cut along rulings.
+    Flattened,
+    /// Border lines inside the sheet are cuts.
+    InnerBorder,
+    /// Pieces that nothing joins with the one that is read are left out.
+    OtherPiece,
     /// An element that is not drawn (no stroke, hidden, in `defs`) is left out.
     NotDrawn,
     /// Ends of lines that nearly meet were made one vertex.
@@ -57,6 +71,19 @@ impl WarningKind {
     fn text(self) -> &'static str {
         match self {
             Self::Ignored => "left out, for it has no meaning in a crease pattern",
+            Self::Auxiliary => {
+                "left out as an auxiliary line, for its colour is none of the six of crease patterns"
+            }
+            Self::NearColour => "read as the one of the six colours whose hue is nearest",
+            Self::FilledBorder => "made border, for it is filled and no line is border",
+            Self::AddedBorder => "added as border, for the drawing has none",
+            Self::Flattened => {
+                "a curve, replaced by chords; facets beside curved creases are cut along rulings"
+            }
+            Self::InnerBorder => "made a cut, for it is a border inside the sheet",
+            Self::OtherPiece => {
+                "left out with its piece, for nothing joins it to the one read; pattern.piece chooses another, or all"
+            }
             Self::NotDrawn => "left out, for it is not drawn with a stroke",
             Self::Merged => "moved within the tolerance to an end near by",
             Self::TooShort => "left out, for it is shorter than the tolerance",
@@ -89,11 +116,16 @@ pub struct Warning {
     pub sources: Vec<Source>,
     /// The number of elements concerned in all.
     pub count: usize,
+    /// What they were, such as their colours, each with the number of elements.
+    pub details: Vec<(String, usize)>,
 }
 
 impl fmt::Display for Warning {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}: {}", listed(&self.sources), self.kind.text())
+        write!(f, "{}: {}", listed(&self.sources), self.kind.text())?;
+        let details: Vec<String> =
+            self.details.iter().map(|(detail, count)| format!("{count} × {detail}")).collect();
+        if details.is_empty() { Ok(()) } else { write!(f, " ({})", details.join(", ")) }
     }
 }
 
@@ -101,6 +133,7 @@ impl fmt::Display for Warning {
 #[derive(Debug, Default)]
 pub(super) struct Warnings {
     found: BTreeMap<WarningKind, BTreeSet<Source>>,
+    details: BTreeMap<WarningKind, BTreeMap<String, usize>>,
 }
 
 impl Warnings {
@@ -108,11 +141,19 @@ impl Warnings {
         self.found.entry(kind).or_default().insert(source.clone());
     }
 
+    /// Adds an element with what it was.
+    pub(super) fn add_as(&mut self, kind: WarningKind, source: &Source, detail: String) {
+        *self.details.entry(kind).or_default().entry(detail).or_default() += 1;
+        self.add(kind, source);
+    }
+
     /// The warnings by kind.
     pub(super) fn finish(self) -> Vec<Warning> {
+        let mut details = self.details;
         let warning = |(kind, sources): (WarningKind, BTreeSet<Source>)| Warning {
             kind,
             count: sources.len(),
+            details: details.remove(&kind).unwrap_or_default().into_iter().collect(),
             sources: sources.into_iter().take(MOST_NAMED).collect(),
         };
         self.found.into_iter().map(warning).collect()

@@ -4,6 +4,7 @@
 
 pub(crate) mod budget;
 mod check;
+mod crease_names;
 mod gap;
 pub(crate) mod imported;
 pub(crate) mod input;

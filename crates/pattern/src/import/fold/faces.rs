@@ -68,11 +68,12 @@ pub(super) fn plan(
             role: if faces.len() > 1 { unlisted } else { Role::Border },
             target: 0.0,
             source: sources.len() as u32,
+            is_curved: false,
         });
         sources.push(source);
     }
     let origins = (0..points.len() as u32).map(Some).collect();
-    Ok(Plan { points, origins, lines, facets, sources })
+    Ok(Plan { points, origins, lines, facets, sources, has_rulings: false })
 }
 
 fn twice_area(face: &[u32], points: &[DVec2]) -> f64 {

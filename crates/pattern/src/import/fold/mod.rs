@@ -12,8 +12,9 @@ mod stages;
 use glam::DVec3;
 use serde_json::{Map, Value};
 
-use super::assemble::{Assembled, assemble};
+use super::assemble::Assembled;
 use super::drawing::Drawing;
+use super::pieces::chosen;
 use super::plan::Plan;
 use super::warning::{WarningKind, Warnings};
 use super::{
@@ -49,7 +50,7 @@ pub fn import_fold(bytes: &[u8], options: &ImportOptions) -> Result<ImportedPatt
     let pattern = frames.pattern()?;
     let file = FoldPattern::new(&frames, pattern)?;
     let plan = file.plan(options, &mut warnings)?;
-    let assembled = assemble(&plan, &mut warnings)?;
+    let assembled = chosen(&plan, &options.pieces, &[], &mut warnings)?;
     let mut imported = file.imported(assembled, plan, &frames)?;
     imported.stages = stages::stages(&frames, &file, &imported, &mut warnings)?;
     imported.warnings = warnings.finish();
@@ -158,6 +159,7 @@ impl<'a> FoldPattern<'a> {
             targets,
             stages: Vec::new(),
             fixed_facets,
+            names: Vec::new(),
             sources: plan.sources,
             edge_sources,
             vertex_sources,
