@@ -165,3 +165,69 @@ fn rows_that_clash_are_named_and_drawn() {
     assert_status(&output, 2);
     assert_eq!(names(&home.path().join("out")), ["own"]);
 }
+
+#[test]
+fn the_pattern_of_a_file_of_any_format_is_written_and_read_again() {
+    let home = tempfile::tempdir().unwrap();
+    let svg = "<svg xmlns=\"http://www.w3.org/2000/svg\"><rect width=\"80\" height=\"40\" stroke=\"#000\"/>\
+               <path d=\"M20 0V40\" stroke=\"#f00\"/><path d=\"M40 0Q50 20 40 40\" fill=\"none\" stroke=\"#00f\"/>\
+               <path d=\"M60 0V20\" stroke=\"#0f0\"/><path d=\"M60 20V40\" stroke=\"#f00\"/></svg>";
+    let cp = "1 0 0 80 0\n1 80 0 80 40\n1 80 40 0 40\n1 0 40 0 0\n2 20 0 20 40\n3 40 0 40 40\n";
+    for (name, text, mountains) in [
+        ("fan.svg", svg, 2),
+        ("fan.txt", svg, 2),
+        ("two.cp", cp, 1),
+        ("two.txt", cp, 1),
+        ("two", cp, 1),
+    ] {
+        std::fs::write(home.path().join(name), text).unwrap();
+        let output = pattern(home.path(), &[name, "--out", "written", "--force"]);
+        assert_status(&output, 0);
+        let summary = common::text(&output.stdout);
+        assert!(
+            summary.contains(&format!("pattern of {name}; 80.000 mm x 40.000 mm")),
+            "{summary}"
+        );
+        assert!(summary.contains(&format!("mountain {mountains:>7} lines")), "{summary}");
+        assert_eq!(summary.contains("curve"), text == svg, "{summary}");
+        assert_eq!(
+            names(&home.path().join("written")),
+            ["pattern.dxf", "pattern.fold", "pattern.svg"]
+        );
+        for format in ["svg", "dxf", "fold"] {
+            let file = format!("written/pattern.{format}");
+            let again = pattern(home.path(), &[&file, "--out", "again", "--force"]);
+            assert_status(&again, 0);
+            let summary = common::text(&again.stdout);
+            assert!(
+                summary.contains(&format!("mountain {mountains:>7} lines")),
+                "{file}: {summary}"
+            );
+        }
+    }
+}
+
+#[test]
+fn a_file_of_no_known_format_is_refused_with_the_formats_that_are_read() {
+    let home = tempfile::tempdir().unwrap();
+    for (name, bytes) in [
+        ("picture.png", &b"\x89PNG\r\n\x1a\n\0\0"[..]),
+        ("notes.txt", b"fold it in half"),
+        ("page.html", b"<html></html>"),
+        ("drawing.dxf", b"AutoCAD Binary DXF\r\n\x1a\0"),
+        ("model.obj", b"nothing"),
+    ] {
+        std::fs::write(home.path().join(name), bytes).unwrap();
+        for command in ["pattern", "run"] {
+            let output = foldmotion(home.path(), &[command, name]);
+            assert_status(&output, 2);
+            let error = common::text(&output.stderr);
+            assert!(error.contains(name) && !error.contains("TOML parse"), "{error}");
+        }
+    }
+    let output = foldmotion(home.path(), &["run", "notes.txt"]);
+    let error = common::text(&output.stderr);
+    for format in [".fold", "SVG", ".cp", ".opx", ".orh", "OBJ", "DXF"] {
+        assert!(error.contains(format), "{error}");
+    }
+}

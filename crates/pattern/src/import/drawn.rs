@@ -42,6 +42,7 @@ pub(super) fn imported(
     let merge = options.merge.unwrap_or(MergeTolerance::DRAWING);
     let tolerance = merge.length(diagonal, drawn.scale)?;
     border::complete(&mut drawing, tolerance, drawn.page, &mut warnings)?;
+    border::without_grid(&mut drawing, tolerance, &mut warnings)?;
     let names = drawn.strokes.into_iter().map(|stroke| stroke.names);
     let mut names: Vec<_> = names.collect();
     names.resize_with(drawing.sources.len(), Default::default);
@@ -51,6 +52,7 @@ pub(super) fn imported(
         rulings::end_on_borders(&mut plan, tolerance);
     }
     plan.has_rulings = options.curved_facets == CurvedFacets::Rulings;
+    pieces::keep_creases_together(&mut plan, &options.pieces, &mut warnings)?;
     let assembled = pieces::chosen(&plan, &options.pieces, &names, &mut warnings)?;
     let Assembled { sheet, targets, edge_lines, vertex_points } = assembled;
     let lines = edge_lines.into_iter();

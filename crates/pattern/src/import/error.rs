@@ -191,7 +191,7 @@ pub enum ImportError {
     /// No piece has the name that was asked for.
     #[error(
         "no piece of the sheet is called {name:?}: it has the pieces 0 to {}, one with {}; pattern.piece also takes the \
-         id or class of a line, \"largest\" and \"all\"",
+         id or class of a line, \"main\", \"largest\" and \"all\"",
         .sources.len().saturating_sub(1), listed(.sources)
     )]
     Piece {

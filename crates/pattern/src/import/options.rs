@@ -81,8 +81,10 @@ pub enum CurvedFacets {
 /// Which pieces of a drawing are read, if it has several that nothing joins.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub enum Pieces {
-    /// The one with the largest area.
+    /// The one with the largest area and those at least half as large, side by side.
     #[default]
+    Main,
+    /// The one with the largest area.
     Largest,
     /// All of them, side by side.
     All,

@@ -1,14 +1,18 @@
 //! Sheets in several pieces: which of them are read.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use super::assemble::{Assembled, assemble};
+use super::drawing::{Line, Role};
 use super::names::Names;
 use super::open_cuts::{join, root};
 use super::plan::Plan;
 use super::warning::{WarningKind, Warnings};
 use super::{ImportError, Pieces, Source};
-use crate::Sheet;
+use crate::{Edge, Sheet};
+
+/// The area of a main piece, in parts of that of the largest.
+const MAIN: f64 = 0.5;
 
 /// The sheet of the pieces asked for; `names`: of each source of the plan.
 ///
@@ -25,19 +29,73 @@ pub(super) fn chosen(
     if pieces.areas.len() < 2 || *wanted == Pieces::All {
         return Ok(assembled);
     }
-    let kept = match wanted {
-        Pieces::Named(name) => pieces.named(name, plan, names)?,
-        Pieces::Largest | Pieces::All => pieces.largest(),
+    let kept: BTreeSet<u32> = match wanted {
+        Pieces::Named(name) => BTreeSet::from([pieces.named(name, plan, names)?]),
+        Pieces::Largest => BTreeSet::from([pieces.largest()]),
+        Pieces::Main | Pieces::All => pieces.main(),
     };
+    if kept.len() == pieces.areas.len() {
+        return Ok(assembled);
+    }
     for (piece, first) in (0..).zip(pieces.first_sources(plan)) {
-        if piece != kept {
+        if !kept.contains(&piece) {
             warnings.add(WarningKind::OtherPiece, &first);
         }
     }
     let facets = plan.facets.iter().zip(&pieces.of_facet);
-    let facets = facets.filter(|(_, piece)| **piece == kept).map(|(facet, _)| facet.clone());
+    let facets = facets.filter(|(_, piece)| kept.contains(piece)).map(|(facet, _)| facet.clone());
     let part = Plan { facets: facets.collect(), ..plan.clone() };
     assemble(&part, warnings)
+}
+
+/// Makes facet lines of the border lines inside the sheet, if as cuts they would leave the largest piece with less than
+/// half of the creases: they are a grid by which the pattern was drawn.
+///
+/// # Errors
+/// Those of [`assemble`].
+pub(super) fn keep_creases_together(
+    plan: &mut Plan,
+    wanted: &Pieces,
+    warnings: &mut Warnings,
+) -> Result<(), ImportError> {
+    let inner = inner_borders(plan);
+    if inner.is_empty() || !matches!(wanted, Pieces::Main | Pieces::Largest) {
+        return Ok(());
+    }
+    let assembled = assemble(plan, &mut Warnings::default())?;
+    let pieces = PieceList::new(plan, &assembled);
+    let largest = pieces.largest();
+    let creases = assembled.sheet.edges.iter().filter(|edge| edge.is_crease() && edge.is_hinge());
+    let facet = |edge: &Edge| edge.faces[0].map(|face| assembled.sheet.face_facets[face as usize]);
+    let of_piece = creases.map(|edge| facet(edge).map(|facet| pieces.of_facet[facet as usize]));
+    let of_piece: Vec<Option<u32>> = of_piece.collect();
+    let kept = of_piece.iter().filter(|piece| **piece == Some(largest)).count();
+    if 2 * kept >= of_piece.len() {
+        return Ok(());
+    }
+    for line in plan.lines.iter_mut().filter(|line| inner.contains(&line.key())) {
+        line.role = Role::Facet;
+        warnings.add(WarningKind::InnerGrid, &plan.sources[line.source as usize]);
+    }
+    Ok(())
+}
+
+/// The ends of the border lines with facets on both sides.
+fn inner_borders(plan: &Plan) -> BTreeSet<[u32; 2]> {
+    let borders = plan.lines.iter().filter(|line| line.role == Role::Border);
+    let borders: BTreeSet<[u32; 2]> = borders.map(Line::key).collect();
+    let mut passed = BTreeSet::new();
+    let mut inner = BTreeSet::new();
+    for corners in plan.facets.iter().flatten() {
+        let next = corners.iter().cycle().skip(1);
+        for (&a, &b) in corners.iter().zip(next) {
+            let key = [a.min(b), a.max(b)];
+            if borders.contains(&key) && !passed.insert(key) {
+                inner.insert(key);
+            }
+        }
+    }
+    inner
 }
 
 /// The pieces of a sheet, in the order of the first lines of the file that belong to them.
@@ -92,6 +150,13 @@ impl PieceList {
             if (p - q).abs() <= 1e-9 * p.max(q) { b.cmp(a) } else { p.total_cmp(&q) }
         };
         (0..self.areas.len()).max_by(by_area).unwrap_or_default() as u32
+    }
+
+    /// The largest piece and those at least half as large.
+    fn main(&self) -> BTreeSet<u32> {
+        let largest = self.areas.iter().copied().fold(0.0, f64::max);
+        let pieces = (0..).zip(&self.areas);
+        pieces.filter(|(_, area)| **area >= MAIN * largest).map(|(piece, _)| piece).collect()
     }
 
     fn named(&self, name: &str, plan: &Plan, names: &[Names]) -> Result<u32, ImportError> {

@@ -27,6 +27,8 @@ pub enum WarningKind {
     Flattened,
     /// Border lines inside the sheet are cuts.
     InnerBorder,
+    /// Border lines inside the sheet that are a grid, as they cross each other or would part most creases, are facet lines.
+    InnerGrid,
     /// Pieces that nothing joins with the one that is read are left out.
     OtherPiece,
     /// An element that is not drawn (no stroke, hidden, in `defs`) is left out.
@@ -81,6 +83,9 @@ impl WarningKind {
                 "a curve, replaced by chords; facets beside curved creases are cut along rulings"
             }
             Self::InnerBorder => "made a cut, for it is a border inside the sheet",
+            Self::InnerGrid => {
+                "made a facet line, for border lines that cross each other or would cut most creases off are a grid"
+            }
             Self::OtherPiece => {
                 "left out with its piece, for nothing joins it to the one read; pattern.piece chooses another, or all"
             }

@@ -142,10 +142,12 @@ fn printed_colours_are_read_by_their_hue_and_grey_lines_are_left_out() {
 #[test]
 fn border_lines_inside_the_sheet_are_cuts() {
     // Across the sheet it parts it; from the edge to the middle it opens where a crease ends; alone it stays closed.
-    let parted = sheet("<path d=\"M40 0V100\" stroke=\"black\"/>");
+    let parted = sheet("<path d=\"M20 0V100\" stroke=\"black\"/>");
     assert_eq!(warned(&parted, WarningKind::InnerBorder), 1);
     assert_eq!(warned(&parted, WarningKind::OtherPiece), 1);
-    assert!(parted.sheet.vertices.iter().all(|v| v.x >= 40.0));
+    assert!(parted.sheet.vertices.iter().all(|v| v.x >= 20.0));
+    let halves = sheet("<path d=\"M50 0V100\" stroke=\"black\"/>");
+    assert_eq!((halves.sheet.facets.len(), warned(&halves, WarningKind::OtherPiece)), (2, 0));
     let notch = sheet(
         "<path d=\"M0 50H50\" stroke=\"black\"/><path d=\"M50 0V50\" stroke=\"red\"/><path d=\"M50 50V100\" \
          stroke=\"blue\"/>",
@@ -162,6 +164,27 @@ fn border_lines_inside_the_sheet_are_cuts() {
          height=\"20\" stroke=\"black\"/>",
     );
     assert_eq!((holes.euler_characteristic(), warned(&holes, WarningKind::InnerBorder)), (0, 0));
+}
+
+#[test]
+fn a_grid_in_the_colour_of_the_border_does_not_cut_the_creases_apart() {
+    // Squared paper: as cuts the lines would leave one of the three creases to each square.
+    let grid = "<path d=\"M20 0V100M40 0V100M60 0V100M80 0V100M0 50H100\" stroke=\"black\"/>";
+    let creases = "<path d=\"M0 0L20 50L40 0L60 50\" stroke=\"red\"/>";
+    let imported = sheet(&(grid.to_owned() + creases));
+    assert_eq!((count(&imported, 'M'), warned(&imported, WarningKind::InnerGrid)), (3, 1));
+    assert_eq!(warned(&imported, WarningKind::OtherPiece), 0);
+    assert_eq!(imported.euler_characteristic(), 1);
+    // A grid all around, with creases on it, and the ends of its lines beyond it.
+    let line = |k: i32| format!("<path d=\"M{0} -5V45M-5 {0}H45\" stroke=\"black\"/>", 10 * k);
+    let lines = [0, 1, 2, 3, 4].map(line).concat();
+    let single = lines.replace("M-5", "\" stroke=\"black\"/><path d=\"M-5");
+    let body =
+        single + "<path d=\"M20 0V40\" stroke=\"red\"/><path d=\"M0 0L40 40\" stroke=\"blue\"/>";
+    let imported = read(&document("", &body));
+    let found = ['M', 'V', 'B'].map(|letter| count(&imported, letter));
+    assert_eq!((found, imported.euler_characteristic()), ([4, 4, 16], 1));
+    assert_eq!(warned(&imported, WarningKind::InnerGrid), 10);
 }
 
 #[test]
@@ -225,10 +248,15 @@ fn the_largest_piece_is_read_or_the_one_named_or_all() {
         (found, warned(&imported, WarningKind::OtherPiece))
     };
     let named = |name: &str| of(Pieces::Named(name.to_owned()));
-    assert_eq!(of(Pieces::Largest), ([0, 1], 1));
+    assert_eq!([of(Pieces::Main), of(Pieces::Largest)], [([0, 1], 1); 2]);
     assert_eq!(of(Pieces::All), ([1, 1], 0));
     assert_eq!([named("left"), named("0")], [([1, 0], 1); 2]);
     assert_eq!([named("right"), named("1")], [([0, 1], 1); 2]);
+    // One half as large and more stands beside it.
+    let text =
+        document("", &(piece(0.0, 15.0, "red", "left") + &piece(20.0, 20.0, "blue", "right")));
+    let both = read(&text);
+    assert_eq!([count(&both, 'M'), count(&both, 'V')], [1, 1]);
     let options = ImportOptions { pieces: Pieces::Named("2".to_owned()), ..Default::default() };
     let refused = import_svg(text.as_bytes(), &options).unwrap_err();
     assert!(

@@ -144,7 +144,8 @@ fn read_pattern(input: &Input<'_>, scene: &PatternScene) -> Result<ImportedPatte
 /// The pieces that the scene asks for.
 fn pieces(name: Option<&str>) -> Pieces {
     match name {
-        None | Some("largest") => Pieces::Largest,
+        None | Some("main") => Pieces::Main,
+        Some("largest") => Pieces::Largest,
         Some("all") => Pieces::All,
         Some(name) => Pieces::Named(name.to_owned()),
     }

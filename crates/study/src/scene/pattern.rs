@@ -39,9 +39,10 @@ pub struct PatternScene {
     #[serde(default, deserialize_with = "choice::optional")]
     #[schemars(extend("default" = "rulings"))]
     pub curved_facets: Option<CurvedFacets>,
-    /// Which piece is folded, if nothing joins all pieces of the drawing: `largest`, `all` side by side, the number of
-    /// the piece counted from 0 in the order of the file, or the id or class of one of its lines.
-    #[schemars(extend("default" = "largest"))]
+    /// Which pieces are folded, if nothing joins all pieces of the drawing: `main`, the largest and those at least half
+    /// as large side by side; `largest`; `all`; the number of one, counted from 0 in the order of the file; or the id or
+    /// class of one of its lines.
+    #[schemars(extend("default" = "main"))]
     pub piece: Option<String>,
     /// The index of the facet that stays in place, as a list with one element; an empty list for none.
     #[schemars(extend("x-default" = "what the file says"))]
