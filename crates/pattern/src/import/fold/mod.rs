@@ -150,8 +150,12 @@ impl<'a> FoldPattern<'a> {
         let position = |v: &Option<u32>| v.map(|v| self.coordinates[v as usize]);
         let shape: Option<Vec<DVec3>> = vertex_sources.iter().map(position).collect();
         let shape = shape.filter(|shape| *shape != sheet.planar());
-        let keys = frames.keys();
-        let fixed_facets = fixed_facets(keys, &sheet, &vertex_sources, self.faces.len());
+        let mut keys = frames.keys().clone();
+        if !self.faces.is_empty() && sheet.facets.len() != self.faces.len() {
+            // Pieces were left out: lists for each face no longer fit.
+            keys.retain(|key, _| !key.contains("faces_"));
+        }
+        let fixed_facets = fixed_facets(&keys, &sheet, &vertex_sources, self.faces.len());
         Ok(ImportedPattern {
             title: None,
             sheet,
@@ -165,7 +169,7 @@ impl<'a> FoldPattern<'a> {
             vertex_sources,
             shape,
             warnings: Vec::new(),
-            keys: keys.clone(),
+            keys,
             listed: [self.coordinates.len(), self.edges.len(), self.faces.len()],
         })
     }
