@@ -25,8 +25,8 @@ use clap::Parser as _;
 use foldmotion_paper::{PaperError, PaperPart, paper};
 use foldmotion_study::scene::EngineChoice;
 use foldmotion_study::{
-    CheckOptions, Destination, Device, FoldedPattern, PatternStudy, Phase, Published, SceneSource,
-    Study, check_file, models, record_file, reproduce_file, verify_file,
+    CheckOptions, Destination, Device, PatternStudy, Phase, Published, SceneSource, Study,
+    check_file, models, record_file, reproduce_file, verify_file,
 };
 use pattern::PatternArguments;
 use progress::Reporter;
@@ -256,13 +256,6 @@ fn write_pattern(arguments: &PatternArguments) -> Result<u8, Failure> {
     let (source, folder) =
         scene_and_folder(&arguments.scene, &arguments.set, arguments.out.as_ref())?;
     let destination = Destination::from(&folder).replacing(arguments.force);
-    if let Some(pattern) = FoldedPattern::resolve(&source)? {
-        let summary = pattern.write(destination)?;
-        if !arguments.quiet {
-            print(&summary)?;
-        }
-        return Ok(0);
-    }
     let study = PatternStudy::resolve(&source);
     if study.is_err()
         && let Some(figure) = PatternStudy::write_clashes(&source, destination)?

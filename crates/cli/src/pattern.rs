@@ -1,4 +1,4 @@
-//! `foldmotion pattern`: the crease pattern for cutting and folding, or the flat state of an imported one.
+//! `foldmotion pattern`: the crease pattern for cutting and folding.
 
 use std::path::PathBuf;
 
@@ -11,8 +11,8 @@ use foldmotion_study::{
 #[derive(Debug, Args)]
 #[expect(clippy::struct_excessive_bools, reason = "each is a flag of its own")]
 pub(crate) struct PatternArguments {
-    /// The scene file, whose sheet is drawn for cutting; or a crease pattern (FOLD or SVG), which is folded flat: its flat
-    /// state with a proved order of layers, or why there is none. The options of cutting do not apply to a pattern
+    /// The scene file, or a crease pattern (.fold, .svg, .cp, .opx, .orh, .obj, .dxf), which is also folded flat: folded.fold
+    /// and folded.svg have its flat state with a proved order of layers, or the summary says why there is none
     pub(crate) scene: PathBuf,
     /// Folder for the results. Default: out/ and the name of the scene
     #[arg(long)]

@@ -43,10 +43,11 @@ pub use facet_model::FacetModel;
 pub use fold::{FoldError, FoldFile, FoldHeader, FrameNumber};
 pub use folding::Folding;
 pub use import::{
-    Curves, DroppedCrease, ImportError, ImportOptions, ImportedPattern, LARGEST_IMPORT_FILE,
-    LengthUnit, MOST_LINES, MOST_NESTED, MOST_NODES, MOST_PIECES, MOST_STAGE_ANGLES,
-    MOST_STYLE_RULES, MOST_VERTICES, Mending, MergeTolerance, PatternStage, Source,
-    UnknownElements, Warning, WarningKind, import_fold, import_svg,
+    CURVE_TOLERANCE, CurvedFacets, DroppedCrease, ImportError, ImportOptions, ImportedPattern,
+    LARGEST_IMPORT_FILE, LengthUnit, MOST_LINES, MOST_NESTED, MOST_NODES, MOST_PIECES,
+    MOST_STAGE_ANGLES, MOST_STYLE_RULES, MOST_VERTICES, Mending, MergeTolerance, Names,
+    PatternFileFormat, PatternStage, Pieces, Source, UnknownElements, Warning, WarningKind,
+    import_fold, import_pattern, import_svg,
 };
 pub use layer_order::{
     ConditionCounts, FlatFolding, FlatState, FoundLayers, LayerError, LayerOptions,

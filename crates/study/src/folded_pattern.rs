@@ -7,92 +7,73 @@ use foldmotion_record::{FigureState, StripOptions, View, strip};
 use glam::DVec3;
 
 use crate::compute::layers::{FoundState, LayerOrderReport};
-use crate::digest::sha256;
-use crate::resolve::imported::imported;
-use crate::resolve::input::Input;
-use crate::results::{Command, Destination, Results};
-use crate::{ImportedStudy, SceneSource, StudyError, VERSION};
+use crate::{ImportedStudy, StudyError, VERSION};
 
 /// The flat state as FOLD 1.2, with `faceOrders`.
 const FOLDED_FOLD: &str = "folded.fold";
 /// The flat state seen from both sides.
 const FOLDED_SVG: &str = "folded.svg";
 
-/// A crease pattern of a file, for its flat state.
-#[derive(Debug, Clone)]
-pub struct FoldedPattern {
-    title: String,
-    study: ImportedStudy,
+/// The flat state of the crease pattern of a file.
+pub(crate) struct FoldedPattern {
+    /// Name and content of each file: none if no order of the layers is proved.
+    pub(crate) files: Vec<(&'static str, String)>,
+    /// Whether an order exists and is proved, or why not.
+    pub(crate) summary: String,
 }
 
 impl FoldedPattern {
-    /// Reads the crease pattern of a scene; `None` if the scene has a sheet of units.
-    ///
-    /// # Errors
-    /// Every unusable value, with file, line, key, value and remedy.
-    pub fn resolve(source: &SceneSource) -> Result<Option<Self>, StudyError> {
-        let scene = source.scene()?;
-        let Some(pattern) = &scene.pattern else {
-            return Ok(None);
-        };
-        let input = Input::new(source, &scene);
-        let study = imported(&input, pattern)?;
-        let title = input.title(study.imported.title.as_ref());
-        Ok(Some(Self { title, study }))
+    /// Whether a flat state may have a file of this name.
+    pub(crate) fn may_have(name: &str) -> bool {
+        [FOLDED_FOLD, FOLDED_SVG].contains(&name)
     }
 
-    /// Folds the pattern flat and writes `folded.fold` and `folded.svg` into a folder if an order of its layers is proved. Returns a
-    /// summary for the terminal: whether an order exists and is proved, or why not.
+    /// Whether this one has a file of this name.
+    pub(crate) fn has(&self, name: &str) -> bool {
+        self.files.iter().any(|(file, _)| *file == name)
+    }
+
+    /// Folds the pattern flat and orders its layers.
     ///
     /// # Errors
-    /// [`StudyError`]; the folder is then as it was.
-    pub fn write<'a>(&self, destination: impl Into<Destination<'a>>) -> Result<String, StudyError> {
-        let found = FoundState::find(&self.study.imported, self.study.end_angles());
-        let mut summary = self.summary(&found.report);
+    /// [`StudyError::Record`].
+    pub(crate) fn of(study: &ImportedStudy, title: &str) -> Result<Self, StudyError> {
+        let found = FoundState::find(&study.imported, study.end_angles());
+        let facets = study.imported.sheet.facets.len();
+        let summary = summary(&found.report, facets);
         let is_proved = found.report.exists == Some(true);
-        let Some((state, order)) = found.ordered.as_ref().filter(|_| is_proved) else {
-            return Ok(summary);
-        };
-        let mut results = Results::open(destination.into(), Command::Pattern, Some(FOLDED_FOLD))?;
-        results.require_clear(&|name| [FOLDED_FOLD, FOLDED_SVG].contains(&name))?;
-        let folder = results.folder().to_owned();
-        let creator = format!("foldmotion {VERSION}");
-        let fold = state.fold(order, &self.title, &creator, self.study.unit_name);
-        results.write_bytes(FOLDED_FOLD, fold.as_bytes())?;
-        results.write_bytes(FOLDED_SVG, drawing(state, order)?.as_bytes())?;
-        let published = results.publish(Some(&sha256(fold.as_bytes())), &|_| false)?;
-        for line in published.words() {
-            let _ = writeln!(summary, "{line}");
+        let mut files = Vec::new();
+        if let Some((state, order)) = found.ordered.as_ref().filter(|_| is_proved) {
+            let creator = format!("foldmotion {VERSION}");
+            files.push((FOLDED_FOLD, state.fold(order, title, &creator, study.unit_name)));
+            files.push((FOLDED_SVG, drawing(state, order)?));
         }
-        let _ = writeln!(summary, "flat state in {}", folder.display());
-        Ok(summary)
+        Ok(Self { files, summary })
     }
+}
 
-    fn summary(&self, report: &LayerOrderReport) -> String {
-        let facets = self.study.imported.sheet.facets.len();
-        let mut text = format!("{}\n", self.title);
-        let _ = match (report.pairs, report.exists) {
-            (Some(pairs), Some(true)) => writeln!(
-                text,
-                "folds flat: {facets} facets, {pairs} overlapping pairs, an order of layers exists (proved)"
-            ),
-            (Some(pairs), _) => writeln!(
-                text,
-                "folds flat by reflections: {facets} facets, {pairs} overlapping pairs"
-            ),
-            (None, _) => writeln!(text, "{facets} facets"),
-        };
-        if let (Some(all), Some(components)) = (report.conditions, report.components) {
-            let _ = writeln!(
-                text,
-                "conditions: {} taco-taco, {} taco-tortilla, {} tortilla-tortilla, {} transitivity; {components} components \
-                 searched",
-                all.taco_taco, all.taco_tortilla, all.tortilla_tortilla, all.transitivity
-            );
+fn summary(report: &LayerOrderReport, facets: usize) -> String {
+    let mut text = String::new();
+    let _ = match (report.pairs, report.exists) {
+        (Some(pairs), Some(true)) => writeln!(
+            text,
+            "folds flat: {facets} facets, {pairs} overlapping pairs, an order of layers exists (proved)"
+        ),
+        (Some(pairs), _) => {
+            writeln!(text, "folds flat by reflections: {facets} facets, {pairs} overlapping pairs")
         }
-        let _ = writeln!(text, "{}", report.line());
-        text
+        (None, _) => writeln!(text, "{facets} facets"),
+    };
+    if let (Some(all), Some(components)) = (report.conditions, report.components) {
+        let _ = writeln!(
+            text,
+            "conditions: {} taco-taco, {} taco-tortilla, {} tortilla-tortilla, {} transitivity; {components} components \
+             searched",
+            all.taco_taco, all.taco_tortilla, all.tortilla_tortilla, all.transitivity
+        );
     }
+    let _ = writeln!(text, "{}", report.line());
+    text
 }
 
 /// The flat state from above and from below, front and back of the sheet in two colours.

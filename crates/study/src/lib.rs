@@ -56,7 +56,6 @@ pub use compute::series::FrameFigures;
 pub use digest::sha256;
 pub use draft::{Draft, UnitDraft};
 pub use error::StudyError;
-pub use folded_pattern::FoldedPattern;
 pub use foldmotion_pattern::{
     CutError, CutOptions, PaperSize, ProfileModel, models, parse_millimetres,
 };
@@ -64,7 +63,9 @@ pub use foldmotion_solver::Snapshot;
 pub use foldmotion_solver::dynamic::Device;
 pub use input_file::require_file;
 pub use opened::{OpenedFile, OpenedMotion};
-pub use pattern_files::{PatternFormat, PatternOptions, PatternScale, PatternStudy};
+pub use pattern_files::{
+    PatternFormat, PatternOptions, PatternScale, PatternStudy, PatternSubject,
+};
 pub use progress::{Phase, Progress, Watch};
 pub use recording::{MotionRecord, Quantity, Reproduction, record_file, reproduce_file};
 pub use report::Report;

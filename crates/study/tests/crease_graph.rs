@@ -98,6 +98,9 @@ fn vertices_that_cannot_fold_flat_are_named() {
     assert!(maekawa.contains("mountains - valleys = -4"), "{maekawa}");
     let kawasaki = named(&corners_to(1.0, 2.0, ["V", "V", "V", "M"]), "").unwrap();
     assert!(kawasaki.contains("alternate angles sum to 1"), "{kawasaki}");
+    // Drawn with few digits, or with a free hinge that may fold or not.
+    assert_eq!(named(&corners_to(2.001, 2.0, ["V", "V", "V", "M"]), ""), None);
+    assert_eq!(named(&corners_to(2.0, 2.0, ["V", "V", "V", "U"]), ""), None);
     // Nothing is to fold flat.
     assert_eq!(named(&corners_to(2.0, 2.0, ["V"; 4]), "fold_percent = 50.0\n"), None);
 }

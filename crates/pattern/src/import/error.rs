@@ -47,7 +47,8 @@ pub enum ImportError {
     },
     /// The tolerance of flattened curves is out of range.
     #[error(
-        "the tolerance of flattened curves is {}: it must lie between 1e-6 and 0.1 of the diagonal", Number(*value)
+        "pattern.curve_tolerance, the tolerance of curves, is {}: it must lie between 1e-6 and 0.1 of the diagonal",
+        Number(*value)
     )]
     CurveTolerance {
         /// The tolerance, in parts of the diagonal.
@@ -59,14 +60,39 @@ pub enum ImportError {
         /// The value that was given.
         value: f64,
     },
+    /// No crease pattern by its content and its extension.
+    #[error(
+        "this is no crease pattern that is read: FOLD (.fold, JSON), SVG, ORIPA and Oriedita (.cp, .opx), Orihime \
+         (.orh), OBJ with lines and ASCII DXF are"
+    )]
+    Format,
+    /// A line of a text file that cannot be read.
+    #[error("line {line}: {value:?}: {need}")]
+    Line {
+        /// The line, counted from 1.
+        line: usize,
+        /// What the file has there.
+        value: String,
+        /// What is needed instead.
+        need: &'static str,
+    },
     /// Not UTF-8.
     #[error("the bytes from {byte} on are not UTF-8")]
     NotUtf8 {
         /// The index of the first byte that is not UTF-8.
         byte: usize,
     },
-    /// Not XML, or a document type with entities, which are not read.
-    #[error("this is not XML, or has entities, which are not read: {message}")]
+    /// Not UTF-16, which the file starts as.
+    #[error("the file starts as UTF-16, but is cut off or has letters that are not UTF-16")]
+    NotUtf16,
+    /// Entities by which the file could grow without bound.
+    #[error("the entities of the document type are not read: {reason}; save the file without them")]
+    Entities {
+        /// What is wrong with them.
+        reason: &'static str,
+    },
+    /// Not XML.
+    #[error("this is not XML: {message}")]
     Xml {
         /// What is wrong, with line and column.
         message: String,
@@ -92,7 +118,7 @@ pub enum ImportError {
     /// Strokes and elements without a meaning.
     #[error(
         "{} cannot be read: {}; known strokes are #000 border, #f00 mountain, #00f valley, #0f0 cut, #ff0 facet, \
-         #f0f free hinge",
+         #f0f free hinge; pattern.unknown = \"ignore\" leaves out what cannot be read",
         listed(.elements), .reasons.join(", ")
     )]
     Unknown {
@@ -185,11 +211,15 @@ pub enum ImportError {
         /// The elements that the edge comes from.
         sources: Vec<Source>,
     },
-    /// Pieces that nothing joins.
-    #[error("the sheet is in {pieces} pieces, one with {}: only one can be folded", listed(.sources))]
-    Disconnected {
-        /// The number of separate pieces.
-        pieces: usize,
+    /// No piece has the name that was asked for.
+    #[error(
+        "no piece of the sheet is called {name:?}: it has the pieces 0 to {}, one with {}; pattern.piece also takes the \
+         id or class of a line, \"main\", \"largest\" and \"all\"",
+        .sources.len().saturating_sub(1), listed(.sources)
+    )]
+    Piece {
+        /// The name that was asked for.
+        name: String,
         /// One element of each piece.
         sources: Vec<Source>,
     },

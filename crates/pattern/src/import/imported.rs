@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use glam::DVec3;
 use serde_json::{Map, Value};
 
-use super::{ImportError, LengthUnit, Mending, Source, Warning};
+use super::{ImportError, LengthUnit, Mending, Names, Source, Warning};
 use crate::{Assignment, Sheet};
 
 /// The key of a FOLD file of a motion with the fold angles of every edge at the end of each stage, degrees.
@@ -33,6 +33,8 @@ pub struct ImportedPattern {
     pub fixed_facets: Vec<u32>,
     /// The elements of the file that the edges come from.
     pub sources: Vec<Source>,
+    /// The names of each of `sources`; empty for FOLD.
+    pub names: Vec<Names>,
     /// The index in `sources` of every edge; `None` for those that cut facets into triangles.
     pub edge_sources: Vec<Option<u32>>,
     /// The FOLD vertex every vertex comes from; `None` if lines were drawn or split.

@@ -1,4 +1,4 @@
-//! Crease patterns of others: SVG as Origami Simulator draws them, and FOLD 1.0 to 1.2.
+//! Crease patterns of others: FOLD 1.0 to 1.2, and drawings (SVG, `.cp`, `.opx`, `.orh`, OBJ and DXF).
 //!
 //! A file becomes a drawing: lines that are border, cut, mountain, valley, free hinge or facet line, each with its
 //! target fold angle. Ends that nearly meet become one vertex, within a tolerance chosen from the drawing; lines are split
@@ -19,35 +19,55 @@
 //! [`MOST_STAGE_ANGLES`] fold angles of stages. Memory is bounded by some fifty times the file.
 
 mod assemble;
+mod border;
+mod colour;
 mod drawing;
+mod drawn;
+mod dxf;
+mod encoding;
+mod entities;
+mod entries;
 mod error;
 mod fold;
+mod format;
 mod grid;
 mod imported;
+mod layer_names;
 mod loops;
 mod mending;
+mod names;
+mod obj;
 mod open_cuts;
 mod options;
+mod orihime;
+mod oripa;
+mod pieces;
 mod plan;
 mod predicate;
 mod prune;
+mod rulings;
 mod source;
 mod split;
+mod stroke;
 mod svg;
 mod tolerance;
 mod triangles;
 mod unit;
+mod unread;
 mod vertices;
 mod warning;
 mod write_fold;
 
 pub use error::ImportError;
 pub use fold::import_fold;
+pub use format::{PatternFileFormat, import_pattern};
 pub use imported::{ImportedPattern, PatternStage};
 pub use mending::{DroppedCrease, Mending};
+pub use names::Names;
 pub use options::{
-    Curves, ImportOptions, LARGEST_IMPORT_FILE, MOST_LINES, MOST_NESTED, MOST_NODES, MOST_PIECES,
-    MOST_STAGE_ANGLES, MOST_STYLE_RULES, MOST_VERTICES, MergeTolerance, UnknownElements,
+    CURVE_TOLERANCE, CurvedFacets, ImportOptions, LARGEST_IMPORT_FILE, MOST_LINES, MOST_NESTED,
+    MOST_NODES, MOST_PIECES, MOST_STAGE_ANGLES, MOST_STYLE_RULES, MOST_VERTICES, MergeTolerance,
+    Pieces, UnknownElements,
 };
 pub use source::Source;
 pub use svg::import_svg;

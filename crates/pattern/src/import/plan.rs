@@ -11,7 +11,7 @@ use super::warning::{WarningKind, Warnings};
 use super::{ImportError, Source};
 
 /// Facets that cover a sheet in the plane.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(super) struct Plan {
     pub(super) points: Vec<DVec2>,
     /// The vertex of the file each point is; `None` for crossings.
@@ -24,10 +24,14 @@ pub(super) struct Plan {
     pub(super) sources: Vec<Source>,
     /// What was done about lines that nearly meet.
     pub(super) mending: Mending,
+    /// Whether facets beside curved creases are cut along rulings.
+    pub(super) has_rulings: bool,
+    /// Whether the facets are the faces that the file lists, in its order.
+    pub(super) are_listed: bool,
 }
 
 /// The sheet that a planar graph bounds: faces that an odd number of border lines parts from the plane around
-/// everything. Lines at its edge become border, border lines inside it cuts.
+/// everything. Lines at its edge become border; border lines inside it are cuts.
 ///
 /// # Errors
 /// [`ImportError::NoFaces`].
@@ -48,10 +52,6 @@ pub(super) fn plan(
             mending.drop(&line, &points, &sources);
             continue;
         }
-        if sides == [true, true] && line.role == Role::Border {
-            warnings.add(WarningKind::BorderInside, source);
-            line.role = Role::Cut;
-        }
         if sides.contains(&false) && line.role != Role::Border {
             warnings.add(WarningKind::MadeBorder, source);
             (line.role, line.target) = (Role::Border, 0.0);
@@ -63,7 +63,8 @@ pub(super) fn plan(
     if facets.is_empty() {
         return Err(ImportError::NoFaces);
     }
-    Ok(Plan { points, origins, lines: kept, facets, sources, mending })
+    let (has_rulings, are_listed) = (false, false);
+    Ok(Plan { points, origins, lines: kept, facets, sources, mending, has_rulings, are_listed })
 }
 
 /// Which faces belong to the sheet: those inside the border lines; where these bound nothing, or not all around, those
@@ -72,56 +73,70 @@ fn sheet_faces(graph: &Graph, faces: &Faces) -> Vec<bool> {
     let sides = |line: usize| [0, 1].map(|side| faces.face_of[2 * line + side]);
     let is_border = |line: usize| graph.lines[line].role == Role::Border;
     let by_border = Regions::new(graph, faces, is_border);
-    if by_border.bounds_all && by_border.is_inside.contains(&true) {
-        return by_border.is_inside;
+    let is_open = (0..graph.lines.len()).any(|line| {
+        let [left, right] = sides(line);
+        is_border(line) && left != right && [left, right].iter().all(|&f| by_border.is_outside(f))
+    });
+    let inside = by_border.inside();
+    if !is_open && inside.contains(&true) {
+        return inside;
     }
     let by_edge = Regions::new(graph, faces, |line| {
         let [left, right] = sides(line);
         is_border(line) || (left != right && (left == 0 || right == 0))
     });
-    by_edge.is_inside
+    by_edge.inside()
 }
 
-/// Faces that lines part into regions.
+/// Faces that no line that parts separates.
 struct Regions {
-    /// Whether an odd number of the lines that part lies between a face and face 0, on the shortest way.
-    is_inside: Vec<bool>,
-    /// Whether no such line has the region of face 0 on both sides.
-    bounds_all: bool,
+    /// The region of each face.
+    region: Vec<u32>,
+    /// The least number of lines that part each region from face 0; `None` where none leads there.
+    depth: Vec<Option<u32>>,
 }
 
 impl Regions {
     fn new(graph: &Graph, faces: &Faces, parts: impl Fn(usize) -> bool) -> Self {
+        let count = faces.loops.len();
+        let mut region: Vec<u32> = (0..count as u32).collect();
         let lines = 0..graph.lines.len();
         let sides = |line: usize| [0, 1].map(|side| faces.face_of[2 * line + side]);
-        let mut joined: Vec<u32> = (0..faces.loops.len() as u32).collect();
-        for [left, right] in lines.clone().filter(|&line| !parts(line)).map(sides) {
-            join(&mut joined, left, right);
+        for line in lines.clone().filter(|&line| !parts(line)) {
+            let [left, right] = sides(line);
+            join(&mut region, left, right);
         }
-        let region_of: Vec<u32> =
-            (0..faces.loops.len() as u32).map(|face| root(&mut joined, face)).collect();
-        let mut beside = vec![Vec::new(); faces.loops.len()];
-        let mut bounds_all = true;
-        for line in lines.filter(|&line| parts(line)) {
-            let faces = sides(line);
-            let [left, right] = faces.map(|face| region_of[face as usize]);
-            bounds_all &= left != right || left != 0 || faces[0] == faces[1];
-            beside[left as usize].push(right);
-            beside[right as usize].push(left);
+        let region: Vec<u32> = (0..count as u32).map(|face| root(&mut region, face)).collect();
+        let mut around = vec![Vec::new(); count];
+        for line in lines {
+            let [left, right] = sides(line).map(|face| region[face as usize]);
+            if left != right {
+                around[left as usize].push(right);
+                around[right as usize].push(left);
+            }
         }
-        let mut is_region_inside = vec![None; faces.loops.len()];
-        is_region_inside[0] = Some(false);
-        let mut reached = std::collections::VecDeque::from([0]);
-        while let Some(region) = reached.pop_front() {
-            let beyond = is_region_inside[region as usize].map(|is_inside: bool| !is_inside);
-            for &next in &beside[region as usize] {
-                if is_region_inside[next as usize].is_none() {
-                    is_region_inside[next as usize] = beyond;
-                    reached.push_back(next);
+        let mut depth = vec![None; count];
+        depth[region[0] as usize] = Some(0);
+        let mut reached = std::collections::VecDeque::from([(region[0], 0)]);
+        while let Some((at, steps)) = reached.pop_front() {
+            for &beyond in &around[at as usize] {
+                if depth[beyond as usize].is_none() {
+                    depth[beyond as usize] = Some(steps + 1);
+                    reached.push_back((beyond, steps + 1));
                 }
             }
         }
-        let is_inside = |region: &u32| is_region_inside[*region as usize] == Some(true);
-        Self { is_inside: region_of.iter().map(is_inside).collect(), bounds_all }
+        Self { region, depth }
+    }
+
+    /// Whether a face and the plane around everything are one region.
+    fn is_outside(&self, face: u32) -> bool {
+        self.region[face as usize] == self.region[0]
+    }
+
+    /// Which faces an odd number of lines parts from face 0.
+    fn inside(&self) -> Vec<bool> {
+        let is_odd = |region: &u32| self.depth[*region as usize].is_some_and(|d| d % 2 == 1);
+        self.region.iter().map(is_odd).collect()
     }
 }

@@ -33,12 +33,40 @@ pub(super) fn mended(
     scale: f64,
     warnings: &mut Warnings,
 ) -> Result<Graph, ImportError> {
+    let Attempt { mut graph, warnings: found, .. } = best(drawing, merge, diagonal, scale)?;
+    warnings.append(found);
+    graph.mending.chosen = matches!(merge, MergeTolerance::Chosen { .. });
+    if !graph.lines.is_empty() {
+        graph.mending.check(scale)?;
+    }
+    Ok(graph)
+}
+
+/// The tolerance with which [`mended`] merges a drawing.
+///
+/// # Errors
+/// [`ImportError::Tolerance`], [`ImportError::TooMany`], [`ImportError::Tangled`].
+pub(super) fn chosen(
+    drawing: &Drawing,
+    merge: MergeTolerance,
+    diagonal: f64,
+    scale: f64,
+) -> Result<f64, ImportError> {
+    Ok(best(drawing, merge, diagonal, scale)?.graph.mending.tolerance)
+}
+
+fn best(
+    drawing: &Drawing,
+    merge: MergeTolerance,
+    diagonal: f64,
+    scale: f64,
+) -> Result<Attempt, ImportError> {
     let least = merge.length(diagonal, scale)?;
-    let chosen = matches!(merge, MergeTolerance::Chosen { .. });
+    let is_chosen = matches!(merge, MergeTolerance::Chosen { .. });
     let attempt = |tolerance: f64| Attempt::new(drawing, tolerance, FARTHEST * diagonal);
     let mut best = attempt(least);
     let others = TRIED.into_iter().map(|part| part * diagonal).filter(|&t| t != least);
-    for tolerance in others.filter(|_| chosen) {
+    for tolerance in others.filter(|_| is_chosen) {
         if best.as_ref().map_or_else(|error| !error.is_tangle(), Attempt::is_clear) {
             break;
         }
@@ -53,13 +81,7 @@ pub(super) fn mended(
             best = other;
         }
     }
-    let Attempt { mut graph, warnings: found, .. } = best?;
-    warnings.append(found);
-    graph.mending.chosen = chosen;
-    if !graph.lines.is_empty() {
-        graph.mending.check(scale)?;
-    }
-    Ok(graph)
+    best
 }
 
 /// The least distance of a vertex from a line it does not end, and of the ends of a line from each other; at most `reach`.

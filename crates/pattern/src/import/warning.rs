@@ -15,6 +15,22 @@ const MOST_NAMED: usize = 1_000;
 pub enum WarningKind {
     /// A stroke or an element without a meaning is left out.
     Ignored,
+    /// Auxiliary lines, whose colour is none of the six, are left out.
+    Auxiliary,
+    /// A colour that is none of the six was read as the one with the nearest hue.
+    NearColour,
+    /// Filled outlines without a stroke are the border, for no line is.
+    FilledBorder,
+    /// The outline of the lines was added as border, for there was none.
+    AddedBorder,
+    /// Curves became chords, and the facets beside curved creases are cut along rulings.
+    Flattened,
+    /// Border lines with the sheet on both sides are cuts.
+    InnerBorder,
+    /// Border lines inside the sheet that are a grid, as they cross each other or would part most creases, are facet lines.
+    InnerGrid,
+    /// Pieces that nothing joins with the one that is read are left out.
+    OtherPiece,
     /// An element that is not drawn (no stroke, hidden, in `defs`) is left out.
     NotDrawn,
     /// Ends of lines that nearly meet were made one vertex.
@@ -35,8 +51,6 @@ pub enum WarningKind {
     Outside,
     /// Lines at the edge of the sheet are its border, whatever they were drawn as.
     MadeBorder,
-    /// Border lines with the sheet on both sides are cuts.
-    BorderInside,
     /// Cuts that both ends hold together cannot open and act as free hinges.
     ClosedCut,
     /// Edges whose fold angle has the other sign than their assignment: the angle counts.
@@ -67,6 +81,22 @@ impl WarningKind {
     fn text(self) -> &'static str {
         match self {
             Self::Ignored => "left out, for it has no meaning in a crease pattern",
+            Self::Auxiliary => {
+                "left out as an auxiliary line, for its colour is none of the six of crease patterns"
+            }
+            Self::NearColour => "read as the one of the six colours whose hue is nearest",
+            Self::FilledBorder => "made border, for it is filled and no line is border",
+            Self::AddedBorder => "added as border, for the drawing has none",
+            Self::Flattened => {
+                "a curve, replaced by chords; facets beside curved creases are cut along rulings"
+            }
+            Self::InnerBorder => "made a cut, for it is a border with the sheet on both sides",
+            Self::InnerGrid => {
+                "made a facet line, for border lines that cross each other or would cut most creases off are a grid"
+            }
+            Self::OtherPiece => {
+                "left out with its piece, for nothing joins it to the one read; pattern.piece chooses another, or all"
+            }
             Self::NotDrawn => "left out, for it is not drawn with a stroke",
             Self::Merged => "moved within the tolerance to an end near by",
             Self::TooShort => "left out, for it is shorter than the tolerance",
@@ -77,7 +107,6 @@ impl WarningKind {
             Self::Joined => "joined into one straight line",
             Self::Outside => "left out, for it lies beside the sheet or in a hole",
             Self::MadeBorder => "made border, for it lies at the edge of the sheet",
-            Self::BorderInside => "made a cut, for it is a border with the sheet on both sides",
             Self::ClosedCut => {
                 "made a free hinge: both ends of the cut hold together, so that it cannot open"
             }
@@ -108,11 +137,16 @@ pub struct Warning {
     pub sources: Vec<Source>,
     /// The number of elements concerned in all.
     pub count: usize,
+    /// What they were, such as their colours, each with the number of elements.
+    pub details: Vec<(String, usize)>,
 }
 
 impl fmt::Display for Warning {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}: {}", listed(&self.sources), self.kind.text())
+        write!(f, "{}: {}", listed(&self.sources), self.kind.text())?;
+        let details: Vec<String> =
+            self.details.iter().map(|(detail, count)| format!("{count} × {detail}")).collect();
+        if details.is_empty() { Ok(()) } else { write!(f, " ({})", details.join(", ")) }
     }
 }
 
@@ -120,6 +154,7 @@ impl fmt::Display for Warning {
 #[derive(Debug, Default)]
 pub(super) struct Warnings {
     found: BTreeMap<WarningKind, BTreeSet<Source>>,
+    details: BTreeMap<WarningKind, BTreeMap<String, usize>>,
 }
 
 impl Warnings {
@@ -132,13 +167,27 @@ impl Warnings {
         for (kind, sources) in others.found {
             self.found.entry(kind).or_default().extend(sources);
         }
+        for (kind, details) in others.details {
+            let known = self.details.entry(kind).or_default();
+            for (detail, count) in details {
+                *known.entry(detail).or_default() += count;
+            }
+        }
+    }
+
+    /// Adds an element with what it was.
+    pub(super) fn add_as(&mut self, kind: WarningKind, source: &Source, detail: String) {
+        *self.details.entry(kind).or_default().entry(detail).or_default() += 1;
+        self.add(kind, source);
     }
 
     /// The warnings by kind.
     pub(super) fn finish(self) -> Vec<Warning> {
+        let mut details = self.details;
         let warning = |(kind, sources): (WarningKind, BTreeSet<Source>)| Warning {
             kind,
             count: sources.len(),
+            details: details.remove(&kind).unwrap_or_default().into_iter().collect(),
             sources: sources.into_iter().take(MOST_NAMED).collect(),
         };
         self.found.into_iter().map(warning).collect()

@@ -19,8 +19,8 @@ pub enum LayerError {
     },
     /// An odd number of creases meet at a vertex inside the sheet.
     #[error(
-        "vertex {vertex} at ({:.6}, {:.6}) has {creases} creases: around a vertex that folds flat their number is even",
-        Number(position[0]), Number(position[1])
+        "vertex {vertex} at ({:.6}, {:.6}) has {creases} {}: around a vertex that folds flat the number of creases is even",
+        Number(position[0]), Number(position[1]), if *creases == 1 { "crease" } else { "creases" }
     )]
     OddCreases {
         /// The index of the vertex in the sheet.

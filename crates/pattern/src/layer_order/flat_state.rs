@@ -1,17 +1,16 @@
 //! The flat state: where each triangle comes to lie when the sheet is reflected at every crease.
 
-use std::collections::VecDeque;
 use std::f64::consts::{PI, TAU};
 
-use glam::{DAffine2, DMat2, DVec2};
+use glam::DVec2;
 
 use super::LayerError;
+use super::placed::{Misfit, Placed, is_folded};
+use crate::vertex_check::LARGEST_MISFIT;
 use crate::{Assignment, Edge, Frame, Sheet};
 
 /// Targets may differ from 0° and ±180° by this much, radians.
 const FLAT_ANGLE: f64 = 1e-6;
-/// How far apart, in mean edges, reflections along different paths may bring a vertex.
-const LARGEST_MISFIT: f64 = 5e-3;
 /// Overlaps narrower than this, in mean edges, are none, and lines nearer than this are one.
 const LEAST_WIDTH: f64 = 1e-5;
 /// The same in multiples of the misfit.
@@ -23,7 +22,8 @@ pub struct FlatState {
     /// The sheet. Assignments are those of the flat state: V and M where the target is 180° and −180°, U where a free
     /// hinge is folded to either side, F where nothing is folded.
     pub sheet: Sheet,
-    /// The position of every vertex in the plane. The largest facet stays in place, its front up.
+    /// The position of every vertex in the plane. The largest facet of each piece of the sheet stays in place, its front up;
+    /// a piece that would come to lie on another is moved beside it.
     pub positions: Vec<DVec2>,
     /// Whether the front of each triangle faces down.
     pub is_turned: Vec<bool>,
@@ -81,15 +81,9 @@ impl FlatState {
             return Err(LayerError::NotClosed { vertex, facets, misfit: distance, limit });
         }
         let width = (LEAST_WIDTH * sheet.unit_length).max(MISFITS * misfit.distance);
-        let is_turned = placed.places.iter().map(|place| place.matrix2.determinant() < 0.0);
-        let is_turned = is_turned.collect();
+        let is_turned = placed.is_turned();
         Ok(Self { sheet, positions, is_turned, misfit: misfit.distance, width })
     }
-}
-
-/// Whether a sheet with assignments of a flat state is folded at an edge.
-pub(super) fn is_folded(edge: &Edge) -> bool {
-    edge.is_crease() || edge.assignment == Assignment::Free
 }
 
 /// The sheet with the assignments of its flat state. `free`: what a free hinge becomes.
@@ -109,99 +103,6 @@ fn assigned(sheet: &Sheet, targets: &[f64], free: Assignment) -> Result<Sheet, L
         };
     }
     Ok(sheet)
-}
-
-/// The maps of the triangles from the pattern to the flat state.
-struct Placed {
-    places: Vec<DAffine2>,
-}
-
-/// A vertex that two facets bring to different positions.
-struct Misfit {
-    vertex: u32,
-    facets: [u32; 2],
-    distance: f64,
-}
-
-impl Placed {
-    /// Walks over the sheet from the largest facet, nearest triangles first.
-    fn new(sheet: &Sheet) -> Result<Self, LayerError> {
-        let mut beside = vec![Vec::new(); sheet.faces.len()];
-        for (index, edge) in (0u32..).zip(&sheet.edges) {
-            if let [Some(f), Some(g)] = edge.faces {
-                beside[f as usize].push((index, g));
-                beside[g as usize].push((index, f));
-            }
-        }
-        let mut places: Vec<Option<DAffine2>> = vec![None; sheet.faces.len()];
-        let root = largest_facet_triangle(sheet);
-        places[root as usize] = Some(DAffine2::IDENTITY);
-        let mut reached = VecDeque::from([root]);
-        while let Some(face) = reached.pop_front() {
-            let Some(place) = places[face as usize] else { continue };
-            for &(index, next) in &beside[face as usize] {
-                let edge = &sheet.edges[index as usize];
-                let there = if is_folded(edge) { place * reflection(sheet, edge) } else { place };
-                match places[next as usize] {
-                    None => {
-                        places[next as usize] = Some(there);
-                        reached.push_back(next);
-                    }
-                    Some(known) => {
-                        let turns = [known, there].map(|p| p.matrix2.determinant() < 0.0);
-                        if turns[0] != turns[1] {
-                            return Err(LayerError::OddLoop { edge: index });
-                        }
-                    }
-                }
-            }
-        }
-        Ok(Self { places: places.into_iter().map(Option::unwrap_or_default).collect() })
-    }
-
-    /// The mean position of each vertex, and the largest misfit.
-    fn positions(&self, sheet: &Sheet) -> (Vec<DVec2>, Misfit) {
-        let count = sheet.vertices.len();
-        let mut sums = vec![(DVec2::ZERO, 0.0); count];
-        let mut first = vec![None; count];
-        let mut worst = Misfit { vertex: 0, facets: [0; 2], distance: 0.0 };
-        for (face, corners) in sheet.faces.iter().enumerate() {
-            for &vertex in corners {
-                let v = vertex as usize;
-                let at = self.places[face].transform_point2(sheet.vertices[v]);
-                sums[v].0 += at;
-                sums[v].1 += 1.0;
-                let (other, there) = *first[v].get_or_insert((face, at));
-                let distance = at.distance(there);
-                if distance > worst.distance {
-                    let facets = [other, face].map(|f| sheet.face_facets[f]);
-                    worst = Misfit { vertex, facets, distance };
-                }
-            }
-        }
-        let mean = |(sum, count): (DVec2, f64)| sum / count.max(1.0);
-        (sums.into_iter().map(mean).collect(), worst)
-    }
-}
-
-fn reflection(sheet: &Sheet, edge: &Edge) -> DAffine2 {
-    let [a, b] = edge.vertices.map(|v| sheet.vertices[v as usize]);
-    let along = (b - a).normalize_or_zero();
-    let turn = DMat2::from_cols(2.0 * along.x * along, 2.0 * along.y * along) - DMat2::IDENTITY;
-    DAffine2::from_mat2_translation(turn, a - turn * a)
-}
-
-/// A triangle of the facet with the largest area, the first of equal ones.
-fn largest_facet_triangle(sheet: &Sheet) -> u32 {
-    let mut areas = vec![0.0; sheet.facets.len()];
-    for (&corners, &facet) in sheet.faces.iter().zip(&sheet.face_facets) {
-        let [p, q, r] = corners.map(|v| sheet.vertices[v as usize]);
-        areas[facet as usize] += (q - p).perp_dot(r - p);
-    }
-    // Areas that differ only by rounding tie.
-    let most = areas.iter().copied().fold(0.0, f64::max) * (1.0 - 1e-9);
-    let is_largest = |facet: &u32| areas[*facet as usize] >= most;
-    sheet.face_facets.iter().position(is_largest).unwrap_or(0) as u32
 }
 
 /// The folded creases around a vertex inside the sheet.

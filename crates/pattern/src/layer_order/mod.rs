@@ -10,7 +10,8 @@
 //!
 //! | module | contains |
 //! |---|---|
-//! | `flat_state` | reflections, closure, the vertices that do not fold flat |
+//! | `placed` | where reflections at the creases bring each triangle |
+//! | `flat_state` | closure, the vertices that do not fold flat |
 //! | `pieces`, `convex` | convex pieces of facets, and the lines at which they are joined |
 //! | `pairs` | which pieces overlap: the variables |
 //! | `along_lines`, `conditions` | what meets along lines and over points: the conditions |
@@ -29,6 +30,7 @@ mod flat_state;
 mod given;
 mod pairs;
 mod pieces;
+mod placed;
 mod propagation;
 mod search;
 mod write;

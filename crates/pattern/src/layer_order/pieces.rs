@@ -4,7 +4,7 @@ use glam::DVec2;
 
 use super::FlatState;
 use super::convex::Convex;
-use super::flat_state::is_folded;
+use super::placed::is_folded;
 use crate::Sheet;
 
 /// Corners of a facet may turn the other way by this much of the product of the lengths of their sides.

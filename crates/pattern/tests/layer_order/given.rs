@@ -42,3 +42,13 @@ fn an_order_that_no_order_agrees_with_is_named() {
     };
     assert_eq!((facets, given), (vec![0, 1, 2], vec![[0, 2]]));
 }
+
+#[test]
+fn orders_of_faces_that_are_no_facets_are_not_read() {
+    let mut file = strip(&[1.0; 2], "V");
+    file["faceOrders"] = json!([[1, 0, 1]]);
+    assert_eq!(of_fold(&file).face_orders.len(), 1);
+    // A face that lists no vertex of the crease: the facets follow from the edges.
+    file["faces_vertices"] = json!([[0, 2, 5, 3], [0, 2, 5, 3]]);
+    assert!(of_fold(&file).face_orders.is_empty());
+}

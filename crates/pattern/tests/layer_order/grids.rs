@@ -1,8 +1,8 @@
 //! Patterns drawn for the tests.
 
 use foldmotion_pattern::{
-    Curves, FlatFolding, FoundLayers, ImportOptions, ImportedPattern, LayerError, LayerOptions,
-    UnknownElements, import_fold, import_svg,
+    FlatFolding, FoundLayers, ImportOptions, ImportedPattern, LayerError, LayerOptions,
+    import_fold, import_svg,
 };
 use serde_json::{Value, json};
 
@@ -63,11 +63,8 @@ pub(crate) fn lines(n: usize) -> Vec<f64> {
     (0..=n).map(|k| k as f64).collect()
 }
 
-const OPTIONS: ImportOptions =
-    ImportOptions { merge: None, unknown: UnknownElements::Refuse, curves: Curves::Refuse };
-
 pub(crate) fn of_fold(file: &Value) -> ImportedPattern {
-    import_fold(file.to_string().as_bytes(), &OPTIONS).unwrap()
+    import_fold(file.to_string().as_bytes(), &ImportOptions::default()).unwrap()
 }
 
 /// Lines of an SVG: (letter, x1, y1, x2, y2), y upwards.
@@ -84,7 +81,7 @@ pub(crate) fn of_lines(lines: &[(char, f64, f64, f64, f64)]) -> ImportedPattern 
         let line = format!(r#"<line stroke="{stroke}" x1="{x1}" y1="{y1}" x2="{x2}" y2="{y2}"/>"#);
         text.push_str(&line);
     }
-    import_svg((text + "</svg>").as_bytes(), &OPTIONS).unwrap()
+    import_svg((text + "</svg>").as_bytes(), &ImportOptions::default()).unwrap()
 }
 
 pub(crate) fn find(imported: &ImportedPattern) -> Result<FlatFolding, LayerError> {

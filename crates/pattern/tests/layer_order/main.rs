@@ -7,3 +7,4 @@ mod given;
 mod grids;
 mod none;
 mod refused;
+mod several;

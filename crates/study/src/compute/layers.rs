@@ -82,20 +82,38 @@ pub(crate) fn are_flat(targets: &[f64]) -> bool {
 
 /// By what the width that counts as none is multiplied, in turn, until the order that is found is proved.
 const WIDTHS: [f64; 5] = [1.0, 0.5, 0.25, 2.0, 4.0];
+/// No other width is tried once all tried had this many conditions together, which takes a second.
+const MOST_CONDITIONS: usize = 2_000_000;
 
 impl FoundState {
     /// Folds a pattern flat, finds an order of its layers and proves it.
     ///
     /// Where layers are hardly wider than what counts as none, the search and the proofs may not see the same ones. Then
-    /// other widths are tried; if no order is proved at any, the result is that of the first.
+    /// other widths are tried, unless there is too much to put in order; if no order is proved at any, the result is that
+    /// of the first.
     pub(crate) fn find(imported: &ImportedPattern, targets: &[f64]) -> Self {
         let first = Self::with_width(imported, targets, WIDTHS[0]);
-        if first.report.pairs.is_none() || first.report.exists == Some(true) {
+        let ended_first = first.ordered.is_none() && first.report.exists.is_none();
+        if first.report.pairs.is_none() || first.report.exists == Some(true) || ended_first {
             return first;
         }
-        let others = WIDTHS[1..].iter().map(|&width| Self::with_width(imported, targets, width));
-        let mut proved = others.filter(|found| found.report.exists == Some(true));
-        proved.next().unwrap_or(first)
+        let mut conditions = first.conditions();
+        for &width in &WIDTHS[1..] {
+            if conditions > MOST_CONDITIONS {
+                break;
+            }
+            let other = Self::with_width(imported, targets, width);
+            if other.report.exists == Some(true) {
+                return other;
+            }
+            conditions += other.conditions();
+        }
+        first
+    }
+
+    /// The number of conditions on the order of its layers.
+    fn conditions(&self) -> usize {
+        self.report.conditions.map_or(0, |conditions| conditions.total())
     }
 
     fn with_width(imported: &ImportedPattern, targets: &[f64], width: f64) -> Self {

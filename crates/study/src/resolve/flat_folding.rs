@@ -1,6 +1,8 @@
 //! Vertices of an imported pattern that cannot fold flat by themselves.
 
-use foldmotion_pattern::{ImportedPattern, PatternCheck};
+use std::collections::BTreeSet;
+
+use foldmotion_pattern::{ImportedPattern, PatternCheck, VertexCheck};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -39,9 +41,15 @@ impl FlatFoldingFault {
     }
 }
 
-/// The vertices of a pattern that cannot fold flat, the worst first.
+/// The vertices of a pattern that cannot fold flat, the worst first. Those at free hinges, which may fold or not, are left
+/// out.
 pub(crate) fn faults(imported: &ImportedPattern, check: &PatternCheck) -> Vec<FlatFoldingFault> {
-    let bad = check.vertices.iter().filter(|vertex| !vertex.is_flat_foldable());
+    let free = imported.free_hinges().map(|edge| &imported.sheet.edges[edge as usize]);
+    let at_free: BTreeSet<u32> = free.flat_map(|edge| edge.vertices).collect();
+    let is_bad = |check: &&VertexCheck| {
+        !check.is_flat_foldable() && !at_free.contains(&check.vertex)
+    };
+    let bad = check.vertices.iter().filter(is_bad);
     let mut faults: Vec<FlatFoldingFault> = bad
         .map(|check| FlatFoldingFault {
             vertex: check.vertex,

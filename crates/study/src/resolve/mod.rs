@@ -4,6 +4,7 @@
 
 pub(crate) mod budget;
 mod check;
+mod crease_names;
 pub(crate) mod flat_folding;
 mod gap;
 pub(crate) mod imported;

@@ -123,6 +123,12 @@ pub enum LengthUnit {
 }
 
 impl LengthUnit {
+    /// The unit of this name.
+    pub(crate) fn named(name: &str) -> Option<Self> {
+        let all = [Self::Unit, Self::In, Self::Pt, Self::M, Self::Cm, Self::Mm, Self::Um, Self::Nm];
+        all.into_iter().find(|unit| unit.name() == name)
+    }
+
     /// The name in scene and FOLD files.
     pub fn name(self) -> &'static str {
         match self {
@@ -351,6 +357,18 @@ pub struct StepScene {
     #[serde(default, deserialize_with = "choice::optional")]
     #[schemars(extend("default" = "all"))]
     pub creases: Option<CreaseGroup>,
+    /// The ids of the creases that move, of a pattern from a file: those of elements of an SVG or of groups around them,
+    /// of objects and groups of an OBJ, or handles of a DXF.
+    #[schemars(extend("x-default" = "every id"))]
+    pub ids: Option<Vec<String>>,
+    /// The classes of the creases that move, of a pattern from a file: those of elements of an SVG or of groups around
+    /// them, layers of a DXF, or materials of an OBJ.
+    #[schemars(extend("x-default" = "every class"))]
+    pub classes: Option<Vec<String>>,
+    /// The edges that move, of a pattern from a file, counted from 0: as a FOLD file lists them; in other formats as
+    /// `pattern.fold` and `motion.fold` list them.
+    #[schemars(extend("x-default" = "every edge"))]
+    pub edges: Option<Vec<i64>>,
     /// The first and the last row that move, both included and counted from 0, or a single one.
     #[schemars(extend("x-default" = "every row"))]
     pub rows: Option<Vec<i64>>,

@@ -113,7 +113,8 @@ pub(super) fn lines(
 ) -> Vec<Line> {
     let edges = pattern.edges.iter().zip(&pattern.meanings);
     let line = |((&ends, meaning), source): ((&[u32; 2], &EdgeMeaning), u32)| {
-        let mut line = Line { ends, role: meaning.role, target: meaning.target, source };
+        let mut line =
+            Line { ends, role: meaning.role, target: meaning.target, source, is_curved: false };
         let is_outer = sides.get(&line.key()).is_some_and(|faces| faces.len() == 1);
         match meaning.warning {
             // Only its position says what it is.

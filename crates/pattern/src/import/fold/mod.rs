@@ -13,8 +13,9 @@ mod unfold;
 use glam::{DVec2, DVec3};
 use serde_json::{Map, Value};
 
-use super::assemble::{Assembled, assemble};
+use super::assemble::Assembled;
 use super::drawing::{Drawing, Role};
+use super::pieces::chosen;
 use super::plan::Plan;
 use super::warning::{WarningKind, Warnings};
 use super::{
@@ -57,7 +58,7 @@ pub fn import_fold(bytes: &[u8], options: &ImportOptions) -> Result<ImportedPatt
         warnings.add(WarningKind::Unfolded, &frame.map_or(Source::KeyFrame, Source::FoldFrame));
     }
     let plan = file.plan(options, &mut warnings)?;
-    let assembled = assemble(&plan, &mut warnings)?;
+    let assembled = chosen(&plan, &options.pieces, &[], &mut warnings)?;
     let mut imported = file.imported(assembled, plan, &frames)?;
     imported.stages = stages::stages(&frames, &file, &imported, &mut warnings)?;
     imported.warnings = warnings.finish();
@@ -209,8 +210,13 @@ impl<'a> FoldPattern<'a> {
         let position = |v: &Option<u32>| v.map(|v| self.coordinates[v as usize]);
         let shape: Option<Vec<DVec3>> = vertex_sources.iter().map(position).collect();
         let shape = shape.filter(|shape| *shape != sheet.planar());
-        let keys = frames.keys();
-        let fixed_facets = fixed_facets(keys, &sheet, &vertex_sources, self.faces.len());
+        let mut keys = frames.keys().clone();
+        let are_listed = plan.are_listed && sheet.facets.len() == self.faces.len();
+        if !self.faces.is_empty() && !are_listed {
+            // Pieces or stale faces were left out: lists for each face no longer fit.
+            keys.retain(|key, _| !key.contains("faces_"));
+        }
+        let fixed_facets = fixed_facets(&keys, &sheet, &vertex_sources, self.faces.len());
         Ok(ImportedPattern {
             title: None,
             sheet,
@@ -218,21 +224,22 @@ impl<'a> FoldPattern<'a> {
             targets,
             stages: Vec::new(),
             fixed_facets,
+            names: Vec::new(),
             sources: plan.sources,
             mending: plan.mending,
             edge_sources,
             vertex_sources,
             shape,
             warnings: Vec::new(),
-            keys: keys.clone(),
-            face_orders: self.face_orders(frames),
+            keys,
+            face_orders: if are_listed { self.face_orders(frames) } else { Vec::new() },
             listed: [self.coordinates.len(), self.edges.len(), self.faces.len()],
         })
     }
 }
 
 impl FoldPattern<'_> {
-    /// The orders of facets: none where the file lists no faces, which then are no facets.
+    /// The orders of facets that are the listed faces.
     fn face_orders(&self, frames: &Frames) -> Vec<(u32, u32, i8)> {
         let faces = self.faces.len();
         let orders = frames.face_orders(self.frame).iter().copied();
