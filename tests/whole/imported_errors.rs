@@ -50,6 +50,9 @@ fn values_of_the_scene_are_refused_with_their_line() {
         ("stage = \"fold\"\ncolumns = [0]", "no rows"),
         ("stage = \"fold\"\ncreases = \"pads\"", "mountains"),
         ("stage = \"fold\"\ncreases = \"valleys\"", "motion.step.0"),
+        ("stage = \"fold\"\nids = [\"fold\", \"f\"]", "known are fold"),
+        ("stage = \"fold\"\nclasses = [\"f\"]", "none has such a name"),
+        ("stage = \"fold\"\nedges = [99]", "no edge 99"),
     ] {
         of_square(&format!("[[motion.step]]\n{line}"), &["scene.toml:", word]);
     }
@@ -61,14 +64,18 @@ fn files_are_refused_by_name_and_element() {
     let refused = |name: &str, bytes: &[u8], words: &[&str]| {
         refused(name, bytes, &scene(name), words);
     };
-    refused("a.dxf", b"", &["scene.toml:2", ".fold or .svg"]);
-    refused("a", b"", &["scene.toml:2", ".fold or .svg"]);
+    refused("a.txt", b"plain", &["a.txt", "FOLD", "SVG", ".cp", "DXF"]);
+    refused("a", b"", &["FOLD", "SVG", ".cp", "DXF"]);
     refused("empty.svg", b"", &["empty.svg", "XML"]);
     refused("empty.fold", b"", &["empty.fold"]);
     refused("none.fold", b"{}", &["none.fold", "vertices_coords"]);
     refused("bytes.svg", b"<svg>\xff</svg>", &["bytes.svg", "UTF-8"]);
-    let unknown = SQUARE.replace("#f00", "#abc");
-    refused("u.svg", unknown.as_bytes(), &["u.svg", "<path id=\"fold\"> (line 3)"]);
+    let unknown = SQUARE.replace("#f00", "#xyz");
+    refused(
+        "u.svg",
+        unknown.as_bytes(),
+        &["u.svg", "<path id=\"fold\"> (line 3)", "pattern.unknown"],
+    );
     refused("huge.svg", &vec![b' '; (16 << 20) + 1], &["huge.svg", "bytes"]);
     let folder = tempfile::tempdir().unwrap();
     let missing = resolve(folder.path(), &scene("gone.svg")).err().unwrap();
@@ -82,7 +89,7 @@ fn files_are_refused_by_name_and_element() {
 #[test]
 fn unknown_elements_are_ignored_on_request() {
     let folder = tempfile::tempdir().unwrap();
-    let text = SQUARE.replace("</svg>", "<circle r=\"1\" stroke=\"#000\"/></svg>");
+    let text = SQUARE.replace("</svg>", "<circle r=\"1\" stroke=\"url(#a)\"/></svg>");
     std::fs::write(folder.path().join("c.svg"), text).unwrap();
     assert!(resolve(folder.path(), "[pattern]\nfile = \"c.svg\"\n").is_err());
     let study = resolve(folder.path(), "[pattern]\nfile = \"c.svg\"\nunknown = \"ignore\"\n");
@@ -90,4 +97,18 @@ fn unknown_elements_are_ignored_on_request() {
     let imported = &study.subject.imported().unwrap().imported;
     assert_eq!(imported.sheet.facets.len(), 2);
     assert!(imported.warnings[0].to_string().contains("<circle>"));
+}
+
+#[test]
+fn a_piece_that_is_not_there_is_refused_at_its_key() {
+    let two = "<svg><rect id=\"a\" width=\"2\" height=\"2\" stroke=\"#000\"/><rect x=\"9\" width=\"2\" height=\"2\" \
+               stroke=\"#000\"/></svg>";
+    let scene = |piece: &str| format!("[pattern]\nfile = \"two.svg\"\npiece = \"{piece}\"\n");
+    refused("two.svg", two.as_bytes(), &scene("b"), &["scene.toml:3", "pattern.piece", "0 to 1"]);
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("two.svg"), two).unwrap();
+    for (piece, facets) in [("a", 1), ("1", 1), ("all", 2), ("largest", 1)] {
+        let study = resolve(folder.path(), &scene(piece)).unwrap();
+        assert_eq!(study.subject.sheet().facets.len(), facets, "{piece}");
+    }
 }

@@ -9,6 +9,7 @@ mod cut_sheets;
 mod import;
 mod imported;
 mod imported_errors;
+mod imported_steps;
 mod layers;
 mod module_graph;
 mod profiles;

@@ -39,6 +39,8 @@ pub use error::CheckError;
 pub use extents::{
     FittedBox, RelativeError, fitted_box, principal_box, relative_error, upright_box,
 };
-pub use layers::{Claims, Cluster, LayerConflict, LayerProof, LayerRule, RuleCounts};
+pub use layers::{
+    Claims, Cluster, FlatLayers, LayerConflict, LayerProof, LayerRule, RuleCounts, flat_layers,
+};
 pub use straightness::straying;
 pub use strain::{BarStrain, FacetBending, bar_strain, facet_bending};

@@ -56,7 +56,7 @@ pub(crate) enum Command {
     Pattern(PatternArguments),
     /// Open the window: view a motion, edit its scene, run it and record it
     ///
-    /// Opens a scene, a crease pattern (.fold, .svg) or a motion (.fold with frames); without a file,
+    /// Opens a scene, a crease pattern (.fold, .svg and others) or a motion (.fold with frames); without a file,
     /// whatever was open last.
     /// Needs a display and a graphics adapter; Mesa's software Vulkan is enough.
     ///
@@ -75,7 +75,7 @@ pub(crate) enum Command {
 /// `foldmotion run`.
 #[derive(Debug, Args)]
 pub(crate) struct RunArguments {
-    /// The scene file, or a crease pattern: .fold, or .svg in Origami Simulator's colours
+    /// The scene file, or a crease pattern: .fold, .svg, .cp, .opx, .orh, .obj or .dxf
     pub(crate) scene: PathBuf,
     /// Folder for the results. Default: out/ and the name of the file
     #[arg(long)]

@@ -255,8 +255,8 @@ fn write_pattern(arguments: &PatternArguments) -> Result<u8, Failure> {
     interrupt::watch()?;
     let (source, folder) =
         scene_and_folder(&arguments.scene, &arguments.set, arguments.out.as_ref())?;
-    let study = PatternStudy::resolve(&source);
     let destination = Destination::from(&folder).replacing(arguments.force);
+    let study = PatternStudy::resolve(&source);
     if study.is_err()
         && let Some(figure) = PatternStudy::write_clashes(&source, destination)?
         && !arguments.quiet

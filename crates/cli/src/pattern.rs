@@ -11,7 +11,8 @@ use foldmotion_study::{
 #[derive(Debug, Args)]
 #[expect(clippy::struct_excessive_bools, reason = "each is a flag of its own")]
 pub(crate) struct PatternArguments {
-    /// The scene file
+    /// The scene file, or a crease pattern (.fold, .svg, .cp, .opx, .orh, .obj, .dxf), which is also folded flat: folded.fold
+    /// and folded.svg have its flat state with a proved order of layers, or the summary says why there is none
     pub(crate) scene: PathBuf,
     /// Folder for the results. Default: out/ and the name of the scene
     #[arg(long)]

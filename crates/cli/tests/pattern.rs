@@ -165,3 +165,148 @@ fn rows_that_clash_are_named_and_drawn() {
     assert_status(&output, 2);
     assert_eq!(names(&home.path().join("out")), ["own"]);
 }
+
+/// A strip of three pieces of height 1, folded at x = 2 and x = `second`.
+fn letter(second: f64, letters: [&str; 2]) -> String {
+    let edges = [[0, 1], [1, 2], [2, 3], [3, 7], [7, 6], [6, 5], [5, 4], [4, 0], [1, 5], [2, 6]];
+    let mut assignments = vec!["B"; 8];
+    assignments.extend(letters);
+    let x = [0.0, 2.0, second, second + 2.0];
+    let vertices: Vec<[f64; 2]> =
+        [0.0, 1.0].iter().flat_map(|&y| x.iter().map(move |&x| [x, y])).collect();
+    serde_json::json!({
+        "file_spec": 1.2, "vertices_coords": vertices, "edges_vertices": edges,
+        "edges_assignment": assignments, "faces_vertices": [[0, 1, 5, 4], [1, 2, 6, 5], [2, 3, 7, 6]],
+    })
+    .to_string()
+}
+
+#[test]
+fn a_crease_pattern_is_folded_flat_with_a_proved_order_or_the_facets_that_have_none() {
+    let home = tempfile::tempdir().unwrap();
+    std::fs::write(home.path().join("letter.fold"), letter(3.0, ["V", "M"])).unwrap();
+    let output = pattern(home.path(), &["letter.fold"]);
+    assert_status(&output, 0);
+    let said = text(&output.stdout);
+    let line = "folds flat: 3 facets, 3 overlapping pairs, an order of layers exists (proved)";
+    assert!(said.contains(line) && said.contains("by check and verify"), "{said}");
+    let folder = home.path().join("out/letter");
+    let pattern_files = ["pattern.dxf", "pattern.fold", "pattern.svg"];
+    assert_eq!(names(&folder), [&["folded.fold", "folded.svg"][..], &pattern_files].concat());
+    let folded = std::fs::read(folder.join("folded.fold")).unwrap();
+    let folded: serde_json::Value = serde_json::from_slice(&folded).unwrap();
+    let frame = &folded["file_frames"][0];
+    assert_eq!(frame["frame_classes"], serde_json::json!(["foldedForm"]));
+    assert!(!frame["faceOrders"].as_array().unwrap().is_empty());
+    let svg = std::fs::read_to_string(folder.join("folded.svg")).unwrap();
+    assert!(svg.contains("from above") && svg.contains("from below"));
+    // The file is itself a pattern with the same flat state, its facets cut into triangles.
+    let again = pattern(home.path(), &["out/letter/folded.fold", "--out", "again"]);
+    let said = text(&again.stdout);
+    assert!(said.contains("an order of layers exists (proved)"), "{said}");
+
+    std::fs::write(home.path().join("long.fold"), letter(3.0, ["V", "V"])).unwrap();
+    let output = pattern(home.path(), &["long.fold"]);
+    assert_status(&output, 0);
+    let said = text(&output.stdout);
+    assert!(
+        said.contains("no order of layers exists: facets 0, 1, 2 cannot be put in order"),
+        "{said}"
+    );
+    assert_eq!(names(&home.path().join("out/long")), pattern_files);
+}
+
+#[test]
+fn the_files_of_the_flat_state_are_those_of_the_formats_asked_for_and_go_with_it() {
+    let home = tempfile::tempdir().unwrap();
+    std::fs::write(home.path().join("letter.fold"), letter(3.0, ["V", "M"])).unwrap();
+    let written = |more: &[&str]| {
+        let output = pattern(home.path(), &[&["letter.fold", "--out", "here"], more].concat());
+        assert_status(&output, 0);
+        names(&home.path().join("here"))
+    };
+    assert_eq!(written(&["--formats", "dxf"]), ["pattern.dxf"]);
+    let formats = ["--formats", "fold"];
+    assert_eq!(written(&formats), ["folded.fold", "pattern.dxf", "pattern.fold"]);
+    let half = [&formats[..], &["--set", "pattern.fold_percent=50"]].concat();
+    assert_eq!(written(&half), ["pattern.fold"]);
+}
+
+#[test]
+fn a_run_that_ends_short_of_a_flat_state_says_whether_it_exists() {
+    let home = tempfile::tempdir().unwrap();
+    std::fs::write(home.path().join("long.fold"), letter(3.0, ["V", "V"])).unwrap();
+    let output = foldmotion(home.path(), &["run", "long.fold", "--json"]);
+    assert_status(&output, 3);
+    let report: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+    let layers = &report["layer_order"];
+    assert_eq!((&layers["exists"], &layers["pairs"]), (&false.into(), &3.into()), "{layers}");
+    assert_eq!(layers["contradicting"], serde_json::json!([0, 1, 2]));
+    assert!(layers["proved_by"].as_array().unwrap().is_empty());
+}
+
+#[test]
+fn the_pattern_of_a_file_of_any_format_is_written_and_read_again() {
+    let home = tempfile::tempdir().unwrap();
+    let svg = "<svg xmlns=\"http://www.w3.org/2000/svg\"><rect width=\"80\" height=\"40\" stroke=\"#000\"/>\
+               <path d=\"M20 0V40\" stroke=\"#f00\"/><path d=\"M40 0Q50 20 40 40\" fill=\"none\" stroke=\"#00f\"/>\
+               <path d=\"M60 0V20\" stroke=\"#0f0\"/><path d=\"M60 20V40\" stroke=\"#f00\"/></svg>";
+    let cp = "1 0 0 80 0\n1 80 0 80 40\n1 80 40 0 40\n1 0 40 0 0\n2 20 0 20 40\n3 40 0 40 40\n";
+    for (name, content, mountains) in [
+        ("fan.svg", svg, 2),
+        ("fan.txt", svg, 2),
+        ("two.cp", cp, 1),
+        ("two.txt", cp, 1),
+        ("two", cp, 1),
+    ] {
+        std::fs::write(home.path().join(name), content).unwrap();
+        let output = pattern(home.path(), &[name, "--out", "written", "--force"]);
+        assert_status(&output, 0);
+        let summary = text(&output.stdout);
+        assert!(
+            summary.contains(&format!("pattern of {name}; 80.000 mm x 40.000 mm")),
+            "{summary}"
+        );
+        assert!(summary.contains(&format!("mountain {mountains:>7} lines")), "{summary}");
+        assert_eq!(summary.contains("curve"), content == svg, "{summary}");
+        let written = names(&home.path().join("written"));
+        for file in ["pattern.dxf", "pattern.fold", "pattern.svg"] {
+            assert!(written.contains(&file.to_owned()), "{written:?}");
+        }
+        for format in ["svg", "dxf", "fold"] {
+            let file = format!("written/pattern.{format}");
+            let again = pattern(home.path(), &[&file, "--out", "again", "--force"]);
+            assert_status(&again, 0);
+            let summary = text(&again.stdout);
+            assert!(
+                summary.contains(&format!("mountain {mountains:>7} lines")),
+                "{file}: {summary}"
+            );
+        }
+    }
+}
+
+#[test]
+fn a_file_of_no_known_format_is_refused_with_the_formats_that_are_read() {
+    let home = tempfile::tempdir().unwrap();
+    for (name, bytes) in [
+        ("picture.png", &b"\x89PNG\r\n\x1a\n\0\0"[..]),
+        ("notes.txt", b"fold it in half"),
+        ("page.html", b"<html></html>"),
+        ("drawing.dxf", b"AutoCAD Binary DXF\r\n\x1a\0"),
+        ("model.obj", b"nothing"),
+    ] {
+        std::fs::write(home.path().join(name), bytes).unwrap();
+        for command in ["pattern", "run"] {
+            let output = foldmotion(home.path(), &[command, name]);
+            assert_status(&output, 2);
+            let error = text(&output.stderr);
+            assert!(error.contains(name) && !error.contains("TOML parse"), "{error}");
+        }
+    }
+    let output = foldmotion(home.path(), &["run", "notes.txt"]);
+    let error = text(&output.stderr);
+    for format in [".fold", "SVG", ".cp", ".opx", ".orh", "OBJ", "DXF"] {
+        assert!(error.contains(format), "{error}");
+    }
+}

@@ -17,6 +17,7 @@ mod fold;
 mod folding;
 mod import;
 mod layer_count;
+mod layer_order;
 mod layers;
 mod map;
 mod model;
@@ -42,10 +43,14 @@ pub use facet_model::FacetModel;
 pub use fold::{FoldError, FoldFile, FoldHeader, FrameNumber};
 pub use folding::Folding;
 pub use import::{
-    Curves, ImportError, ImportOptions, ImportedPattern, LARGEST_IMPORT_FILE, LengthUnit,
-    MOST_LINES, MOST_NESTED, MOST_NODES, MOST_PIECES, MOST_STAGE_ANGLES, MOST_STYLE_RULES,
-    MOST_VERTICES, MergeTolerance, PatternStage, Source, UnknownElements, Warning, WarningKind,
-    import_fold, import_svg,
+    CURVE_TOLERANCE, CurvedFacets, DroppedCrease, ImportError, ImportOptions, ImportedPattern,
+    LARGEST_IMPORT_FILE, LengthUnit, MOST_LINES, MOST_NESTED, MOST_NODES, MOST_PIECES,
+    MOST_STAGE_ANGLES, MOST_STYLE_RULES, MOST_VERTICES, Mending, MergeTolerance, Names,
+    PatternFileFormat, PatternStage, Pieces, Source, UnknownElements, Warning, WarningKind,
+    import_fold, import_pattern, import_svg,
+};
+pub use layer_order::{
+    ConditionCounts, FlatFolding, FlatState, FoundLayers, LayerError, LayerOptions,
 };
 pub use model::{CaseColumns, NacaSection, ProfileModel, Shape, find as find_model, models};
 pub use motion::{Frame, LayerOrder, Motion};

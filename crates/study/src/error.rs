@@ -101,6 +101,14 @@ pub enum StudyError {
         /// What is wrong, and with which element.
         error: Box<ImportError>,
     },
+    /// A file is neither a scene nor a crease pattern.
+    #[error("{}: this is no scene (TOML); {error}", path.display())]
+    Unrecognised {
+        /// The file.
+        path: PathBuf,
+        /// Which crease patterns are read.
+        error: Box<ImportError>,
+    },
     /// The crease pattern cannot be drawn on paper with these options.
     #[error("the pattern: {0}")]
     Cut(#[from] CutError),
@@ -172,6 +180,7 @@ impl StudyError {
             | Self::LargeFile { .. }
             | Self::Value { .. }
             | Self::Import { .. }
+            | Self::Unrecognised { .. }
             | Self::Cut(_)
             | Self::Conflict { .. }
             | Self::Undivided { .. } => 2,

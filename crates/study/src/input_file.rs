@@ -65,6 +65,11 @@ pub(crate) fn read_text(path: &Path, limit: u64) -> Result<String, StudyError> {
     })
 }
 
+/// Whether a file was read but is not UTF-8.
+pub(crate) fn is_not_text(error: &StudyError) -> bool {
+    matches!(error, StudyError::Read { source, .. } if source.kind() == io::ErrorKind::InvalidData)
+}
+
 fn failed(path: &Path, source: io::Error) -> StudyError {
     StudyError::Read { path: path.to_owned(), source }
 }

@@ -33,6 +33,7 @@ mod compute;
 mod digest;
 mod draft;
 mod error;
+mod folded_pattern;
 mod input_file;
 mod opened;
 mod pattern_files;
@@ -62,7 +63,9 @@ pub use foldmotion_solver::Snapshot;
 pub use foldmotion_solver::dynamic::Device;
 pub use input_file::require_file;
 pub use opened::{OpenedFile, OpenedMotion};
-pub use pattern_files::{PatternFormat, PatternOptions, PatternScale, PatternStudy};
+pub use pattern_files::{
+    PatternFormat, PatternOptions, PatternScale, PatternStudy, PatternSubject,
+};
 pub use progress::{Phase, Progress, Watch};
 pub use recording::{MotionRecord, Quantity, Reproduction, record_file, reproduce_file};
 pub use report::Report;

@@ -24,14 +24,17 @@ pub enum OpenedFile {
 }
 
 impl OpenedFile {
-    /// Reads the file at `path`: a FOLD file with frames in which a vertex moves is a motion; other FOLD files and SVG
-    /// files are crease patterns; every other file is a scene.
+    /// Reads the file at `path`: a FOLD file with frames in which a vertex moves is a motion; other FOLD files and
+    /// files in the formats of crease patterns are crease patterns; every other file is a scene.
     ///
     /// # Errors
     /// [`StudyError::Read`]; for a motion [`StudyError::Motion`] and [`StudyError::LargeFile`]; [`StudyError::Interrupted`]
     /// if `progress` returned false. Errors in a scene or a pattern are reported when it is resolved.
     pub fn read(path: &Path, progress: Progress<'_>) -> Result<Self, StudyError> {
-        let is_fold = path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("fold"));
+        let may_be_fold = |ending: &std::ffi::OsStr| {
+            ["fold", "json"].iter().any(|known| ending.eq_ignore_ascii_case(known))
+        };
+        let is_fold = path.extension().is_some_and(may_be_fold);
         if is_fold && let Some(motion) = OpenedMotion::read(path, progress)? {
             return Ok(Self::Motion(Arc::new(motion)));
         }

@@ -1,15 +1,18 @@
 //! The crease pattern of a scene as files for cutting, printing and Origami Simulator.
 
+use std::borrow::Cow;
 use std::fmt::Write as _;
 use std::path::PathBuf;
 
 use foldmotion_pattern::{
-    CutOptions, CutPattern, FacetModel, LineClass, PageLayout, PaperSize, Tiles, UnitSheet,
+    CutOptions, CutPattern, FacetModel, LineClass, PageLayout, PaperSize, Sheet, Tiles, UnitSheet,
     crease_pattern_fold,
 };
 
 use crate::VERSION;
 use crate::digest::sha256;
+use crate::folded_pattern::FoldedPattern;
+use crate::resolve::imported::{ImportedStudy, imported};
 use crate::resolve::input::Input;
 use crate::resolve::rows::clash_drawing;
 use crate::resolve::units::sheet;
@@ -83,29 +86,90 @@ pub struct PatternOptions {
 pub struct PatternStudy {
     /// The title of the scene.
     pub title: String,
-    /// The scene's unit of length.
+    /// The unit of length of the sheet.
     pub unit: LengthUnit,
     /// The sheet.
-    pub units: UnitSheet,
+    pub subject: PatternSubject,
+}
+
+/// The sheet whose crease pattern is written.
+#[derive(Debug, Clone)]
+pub enum PatternSubject {
+    /// A sheet of units.
+    Units(Box<UnitSheet>),
+    /// The crease pattern of a file.
+    Imported(Box<ImportedStudy>),
+}
+
+impl PatternSubject {
+    /// The sheet as it is put on paper, which turns it by half a turn.
+    fn on_paper(&self) -> Cow<'_, Sheet> {
+        match self {
+            Self::Units(units) => Cow::Borrowed(&units.sheet),
+            Self::Imported(study) => {
+                // A drawing keeps its upper edge.
+                let mut sheet = study.imported.sheet.clone();
+                sheet.vertices.iter_mut().for_each(|vertex| *vertex = -*vertex);
+                Cow::Owned(sheet)
+            }
+        }
+    }
+
+    fn end_angles(&self) -> &[f64] {
+        match self {
+            Self::Units(units) => units.compact_angles(),
+            Self::Imported(study) => study.end_angles(),
+        }
+    }
+
+    /// The width W of a sheet of units, or of the box around a pattern.
+    fn width(&self) -> f64 {
+        match self {
+            Self::Units(units) => units.unit.width * units.columns as f64,
+            Self::Imported(study) => {
+                let across = study.imported.sheet.vertices.iter().map(|vertex| vertex.x);
+                let (low, high) = across
+                    .fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), x| (l.min(x), h.max(x)));
+                high - low
+            }
+        }
+    }
+
+    /// The sheet in words.
+    fn words(&self) -> String {
+        match self {
+            Self::Units(units) => {
+                let case = units.unit.case.name();
+                format!("case {case}, {} x {} units", units.rows, units.columns)
+            }
+            Self::Imported(study) => format!("pattern of {}", study.file),
+        }
+    }
 }
 
 impl PatternStudy {
-    /// Resolves profile, division and sheet of a scene; the tables that describe the motion are parsed but ignored.
+    /// Resolves profile, division and sheet, or the pattern of a scene; the tables that describe the motion are parsed but
+    /// ignored.
     ///
     /// # Errors
     /// Every unusable value, with file, line, key, value and remedy.
     pub fn resolve(source: &SceneSource) -> Result<Self, StudyError> {
         let scene = source.scene()?;
         let input = Input::new(source, &scene);
-        if scene.pattern.is_some() {
-            let message = "is already a crease pattern; only the sheet of a profile can be written for cutting";
-            return Err(input.error("pattern.file", message));
+        if let Some(pattern) = &scene.pattern {
+            let study = imported(&input, pattern)?;
+            return Ok(Self {
+                title: input.title(study.imported.title.as_ref()),
+                unit: LengthUnit::named(study.unit_name).unwrap_or(LengthUnit::Unit),
+                subject: PatternSubject::Imported(Box::new(study)),
+            });
         }
+        // Nodes in the middle of facets belong to the mechanical model, not to the pattern.
+        let units = sheet(&input)?.units.with_facet_model(FacetModel::OneDiagonal);
         Ok(Self {
             title: input.title(None),
             unit: scene.profile.unit.unwrap_or_default(),
-            // Nodes in the middle of facets belong to the mechanical model, not to the pattern.
-            units: sheet(&input)?.units.with_facet_model(FacetModel::OneDiagonal),
+            subject: PatternSubject::Units(Box::new(units)),
         })
     }
 
@@ -129,7 +193,8 @@ impl PatternStudy {
         Ok(Some(folder.join(CLASHES_SVG)))
     }
 
-    /// Writes pattern.svg, pattern.dxf and pattern.fold, and pattern-ROW-COLUMN.svg and .dxf for pages, into a folder.
+    /// Writes pattern.svg, pattern.dxf and pattern.fold, and pattern-ROW-COLUMN.svg and .dxf for pages, into a folder; of the
+    /// crease pattern of a file also folded.fold and folded.svg, its flat state, if an order of its layers is proved.
     ///
     /// Files of earlier calls are replaced, or removed if they belong to another pattern or paper size; other files are kept.
     /// Returns a summary for the terminal.
@@ -143,26 +208,32 @@ impl PatternStudy {
         progress: Progress<'_>,
     ) -> Result<String, StudyError> {
         let lines = self.line_options(options);
-        let angles = self.units.compact_angles();
-        let pattern = CutPattern::new(&self.units.sheet, angles, &lines)?;
+        let pattern = CutPattern::new(&self.subject.on_paper(), self.subject.end_angles(), &lines)?;
         let layout =
             |PaperSize(paper)| PageLayout { paper, margin: lines.margin, overlap: options.overlap };
         let tiles = options.paper.map(|paper| pattern.tiles(layout(paper)));
         let tiles = tiles.transpose()?;
-        let fold = crease_pattern_fold(
-            &self.units.sheet,
-            angles,
-            &lines,
-            &format!("foldmotion {VERSION}"),
-        )?;
+        let fold = self.fold(&lines)?;
+        let folded = match &self.subject {
+            PatternSubject::Units(_) => None,
+            PatternSubject::Imported(study) => Some(FoldedPattern::of(study, &self.title)?),
+        };
         let has = |format| options.formats.contains(&format);
+        let is_wanted = |name: &str| format_of(name).is_some_and(has);
         let mut results = Results::open(destination.into(), Command::Pattern, Some(PATTERN_SVG))?;
         results.require_clear(&|name| {
-            format_of(name).is_some_and(has) && (tiles.is_some() || !is_page(name))
+            let is_folded = folded.as_ref().is_some_and(|folded| folded.has(name));
+            let is_missing =
+                is_page(name) && tiles.is_none() || FoldedPattern::may_have(name) && !is_folded;
+            is_wanted(name) && !is_missing
         })?;
         let mut save = |name: &str, text: &str| results.write_bytes(name, text.as_bytes());
         if has(PatternFormat::Fold) {
             save("pattern.fold", &fold)?;
+        }
+        let of_folded = folded.iter().flat_map(|folded| &folded.files);
+        for (name, text) in of_folded.filter(|(name, _)| is_wanted(name)) {
+            save(name, text)?;
         }
         let whole = std::iter::once(pattern.whole());
         let pages = whole.chain(tiles.iter().flat_map(Tiles::pages));
@@ -183,26 +254,40 @@ impl PatternStudy {
             }
         }
         let paper = format!("{:?} {} {lines:?}", options.paper, options.overlap);
-        let of = sha256(format!("{fold}{paper}").as_bytes());
+        let angles = self.subject.end_angles();
+        let of = sha256(format!("{fold}{angles:?}{paper}").as_bytes());
         let is_stale =
             |file: &ManifestEntry| file.name != CLASHES_SVG && file.of.as_ref() != Some(&of);
         let published = results.publish(Some(&of), &is_stale)?;
         let pages = tiles.map(|tiles| tiles.counts());
         let mut summary = self.summary(&pattern, pages, &lines.note);
+        if let Some(folded) = &folded {
+            summary.push_str(&folded.summary);
+        }
         for line in published.words() {
             let _ = writeln!(summary, "{line}");
         }
         Ok(summary)
     }
 
+    /// The pattern as FOLD: of units in mm on paper, of a file in its own coordinates.
+    fn fold(&self, lines: &CutOptions) -> Result<String, StudyError> {
+        let creator = format!("foldmotion {VERSION}");
+        match &self.subject {
+            PatternSubject::Units(units) => {
+                Ok(crease_pattern_fold(&units.sheet, units.compact_angles(), lines, &creator)?)
+            }
+            PatternSubject::Imported(study) => Ok(study.imported.fold(&creator)),
+        }
+    }
+
     /// The options with title, scale and note.
     fn line_options(&self, options: &PatternOptions) -> CutOptions {
         let natural = self.unit.millimetres();
         let life_size = natural.unwrap_or(1.0);
-        let width = self.units.unit.width * self.units.columns as f64;
         let scale = match options.scale {
             PatternScale::Factor(factor) => factor * life_size,
-            PatternScale::Width(millimetres) => millimetres / width,
+            PatternScale::Width(millimetres) => millimetres / self.subject.width(),
         };
         let of_scene = match natural {
             Some(_) => format!("1 {} of the scene", self.unit.name()),
@@ -220,14 +305,18 @@ impl PatternStudy {
     fn summary(&self, pattern: &CutPattern, pages: Option<[usize; 2]>, note: &str) -> String {
         let size = pattern.size;
         let mut text = format!(
-            "{}: case {}, {} x {} units; {:.3} mm x {:.3} mm; {note}\n",
+            "{}: {}; {:.3} mm x {:.3} mm; {note}\n",
             self.title,
-            self.units.unit.case.name(),
-            self.units.rows,
-            self.units.columns,
+            self.subject.words(),
             size.x,
             size.y
         );
+        if let PatternSubject::Imported(study) = &self.subject {
+            let warnings = study.imported.warnings.iter().map(ToString::to_string);
+            for note in study.notes().into_iter().chain(warnings) {
+                let _ = writeln!(text, "note: {note}");
+            }
+        }
         for class in LineClass::ALL {
             let count = pattern.count(class);
             if count > 0 {
@@ -256,7 +345,9 @@ impl PatternStudy {
 fn format_of(name: &str) -> Option<PatternFormat> {
     let (stem, ending) = name.rsplit_once('.')?;
     let format = PatternFormat::find(ending)?;
-    let may_be = stem == "pattern" || is_page(name) && format != PatternFormat::Fold;
+    let may_be = stem == "pattern"
+        || is_page(name) && format != PatternFormat::Fold
+        || FoldedPattern::may_have(name);
     may_be.then_some(format)
 }
 
@@ -275,8 +366,15 @@ mod tests {
     use super::*;
 
     #[test]
-    fn only_patterns_and_pages_are_recognised_by_name() {
-        for name in ["pattern.svg", "pattern.dxf", "pattern.fold", "pattern-1-12.svg"] {
+    fn only_patterns_pages_and_flat_states_are_recognised_by_name() {
+        for name in [
+            "pattern.svg",
+            "pattern.dxf",
+            "pattern.fold",
+            "pattern-1-12.svg",
+            "folded.svg",
+            "folded.fold",
+        ] {
             assert!(format_of(name).is_some(), "{name}");
         }
         for name in [
@@ -286,6 +384,7 @@ mod tests {
             "pattern-a-b.svg",
             "pattern-1-2-3.svg",
             "my-pattern.svg",
+            "folded.dxf",
             "pattern--.svg",
         ] {
             assert!(format_of(name).is_none(), "{name}");

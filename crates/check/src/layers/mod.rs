@@ -35,12 +35,14 @@
 mod acyclic;
 mod cluster;
 mod flat;
+mod flat_state;
 mod hinges;
 mod pairs;
 mod report;
 mod stacking;
 
 pub(crate) use cluster::{Contradiction, prove};
+pub use flat_state::{FlatLayers, flat_layers};
 pub(crate) use pairs::{LayerPair, front_normal, layer_pairs, layer_point, order_of};
 pub use report::{Claims, Cluster, LayerConflict, LayerProof, LayerRule, RuleCounts};
 pub(crate) use stacking::{FaceStack, unused_claims};

@@ -1,5 +1,7 @@
 //! The crease pattern on paper: every line once.
 
+use std::collections::BTreeSet;
+
 use glam::DVec2;
 
 use super::long_lines::{Segment, join};
@@ -56,6 +58,7 @@ impl CutPattern {
         if !options.draws_facets {
             segments.retain(|segment| segment.class != LineClass::Facet);
         }
+        once_a_cut(&vertices, &mut segments);
         let length = |s: &Segment| {
             let [from, to] = s.ends.map(|v| vertices[v as usize]);
             from.distance(to)
@@ -113,6 +116,16 @@ fn segments(sheet: &Sheet, target_angles: &[f64]) -> Vec<Segment> {
             fold_angle: if edge.is_crease() { angle } else { 0.0 },
         })
         .collect()
+}
+
+/// Leaves out the second side of every cut inside the sheet, which lies on the first.
+fn once_a_cut(vertices: &[DVec2], segments: &mut Vec<Segment>) {
+    let mut drawn: BTreeSet<[[u64; 2]; 2]> = BTreeSet::new();
+    segments.retain(|segment| {
+        let mut ends = segment.ends.map(|v| vertices[v as usize].to_array().map(f64::to_bits));
+        ends.sort_unstable();
+        segment.class != LineClass::Cut || drawn.insert(ends)
+    });
 }
 
 fn in_order(vertices: &[DVec2], segments: &[Segment], row: f64) -> Vec<CutLine> {

@@ -247,7 +247,7 @@ impl FrameFields {
         match key {
             "file_title" => self.title = Some(map.next_value()?),
             "foldmotion:outcome" => self.outcome = Some(map.next_value()?),
-            "frame_classes" => self.classes = map.next_value()?,
+            "frame_classes" => self.classes = map.next_value::<OneOrMany>()?.into(),
             "frame_parent" => self.parent = Some(map.next_value()?),
             "frame_inherit" => self.inherit = map.next_value()?,
             "foldmotion:time" => self.time = Some(map.next_value()?),
@@ -325,6 +325,23 @@ fn known(key: &str) -> Option<&'static str> {
         "faces_foldmotion:facet",
     ];
     KEYS.into_iter().find(|&k| k == key)
+}
+
+/// A list of names, which some programs write as one name.
+#[derive(Deserialize)]
+#[serde(untagged)]
+enum OneOrMany {
+    One(String),
+    Many(Vec<String>),
+}
+
+impl From<OneOrMany> for Vec<String> {
+    fn from(names: OneOrMany) -> Self {
+        match names {
+            OneOrMany::One(name) => vec![name],
+            OneOrMany::Many(names) => names,
+        }
+    }
 }
 
 /// A list whose elements are named in error messages by their index.

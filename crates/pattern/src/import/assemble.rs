@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use glam::DVec2;
 
 use super::drawing::{Line, Role};
-use super::open_cuts::{Sides, end_of, join, open_cuts, root, sides};
+use super::open_cuts::{Sides, end_of, open_cuts, sides};
 use super::plan::Plan;
 use super::triangles::{Triangles, simple, triangles};
 use super::warning::{WarningKind, Warnings};
@@ -27,13 +27,13 @@ pub(super) struct Assembled {
 /// Cuts the facets into triangles, opens the cuts, and leaves out points of no facet.
 ///
 /// # Errors
-/// [`ImportError::Facet`], [`ImportError::NonManifold`], [`ImportError::Overlap`], [`ImportError::BorderInside`],
-/// [`ImportError::Disconnected`].
+/// [`ImportError::Facet`], [`ImportError::NonManifold`], [`ImportError::Overlap`].
 pub(super) fn assemble(plan: &Plan, warnings: &mut Warnings) -> Result<Assembled, ImportError> {
     let lines: BTreeMap<[u32; 2], u32> =
         (0..).zip(&plan.lines).map(|(i, l)| (l.key(), i)).collect();
     let Triangles { mut corners, facets: face_facets } = triangles(plan)?;
     check_manifold(plan, &lines, &corners, &face_facets)?;
+    note_inner_borders(plan, &lines, &corners, warnings);
     let role =
         |key: [u32; 2]| lines.get(&key).map_or(Role::Facet, |&i| plan.lines[i as usize].role);
     let origins = open_cuts(&mut corners, plan.points.len(), role);
@@ -41,7 +41,7 @@ pub(super) fn assemble(plan: &Plan, warnings: &mut Warnings) -> Result<Assembled
     let vertices: Vec<_> = vertex_points.iter().map(|&p| plan.points[p as usize]).collect();
     split_again(&mut corners, &face_facets, &vertices);
     let assembly = Assembly { plan, lines, vertex_points: &vertex_points };
-    let (edges, edge_lines) = assembly.edges(&corners, warnings)?;
+    let (edges, edge_lines) = assembly.edges(&corners, warnings);
     let drawn = edges.iter().zip(&edge_lines).filter(|(_, line)| line.is_some());
     let lengths = drawn.map(|(edge, _)| {
         let [a, b] = edge.vertices.map(|v| vertices[v as usize]);
@@ -56,9 +56,7 @@ pub(super) fn assemble(plan: &Plan, warnings: &mut Warnings) -> Result<Assembled
     let targets = targets.collect();
     let facets = facets(plan.facets.len(), &corners, &face_facets);
     let sheet = Sheet { vertices, edges, faces: corners, face_facets, facets, unit_length };
-    let assembled = Assembled { sheet, targets, edge_lines, vertex_points };
-    assembled.check_connected(plan)?;
-    Ok(assembled)
+    Ok(Assembled { sheet, targets, edge_lines, vertex_points })
 }
 
 fn sources_of(plan: &Plan, lines: &BTreeMap<[u32; 2], u32>, key: [u32; 2]) -> Vec<Source> {
@@ -97,6 +95,21 @@ fn check_manifold(
         }
     }
     Ok(())
+}
+
+/// Warns of border lines with triangles on both sides, which are cuts.
+fn note_inner_borders(
+    plan: &Plan,
+    lines: &BTreeMap<[u32; 2], u32>,
+    corners: &[[u32; 3]],
+    warnings: &mut Warnings,
+) {
+    for (ends, starts) in sides(corners) {
+        let line = lines.get(&ends).map(|&index| plan.lines[index as usize]);
+        if let Some(line) = line.filter(|line| line.role == Role::Border && starts.len() == 2) {
+            warnings.add(WarningKind::InnerBorder, &plan.sources[line.source as usize]);
+        }
+    }
 }
 
 /// Numbers the vertices of triangles without gaps, in order; returns the point each comes from.
@@ -142,7 +155,7 @@ impl Assembly<'_> {
         &self,
         corners: &[[u32; 3]],
         warnings: &mut Warnings,
-    ) -> Result<(Vec<Edge>, Vec<Option<u32>>), ImportError> {
+    ) -> (Vec<Edge>, Vec<Option<u32>>) {
         let sides: Sides = sides(corners);
         let point = |v: u32| self.vertex_points[v as usize];
         let line = |ends: [u32; 2]| {
@@ -166,7 +179,7 @@ impl Assembly<'_> {
                 start.map(|s| s / 3)
             };
             let faces = [on(true), on(false)];
-            let assignment = self.assignment(drawn, starts.len() == 2, warnings)?;
+            let assignment = self.assignment(drawn, starts.len() == 2, warnings);
             edges.push(Edge {
                 vertices: [from, to],
                 assignment,
@@ -180,7 +193,7 @@ impl Assembly<'_> {
                 faces,
             });
         }
-        Ok((edges, order.into_iter().map(|(line, ..)| line).collect()))
+        (edges, order.into_iter().map(|(line, ..)| line).collect())
     }
 
     fn assignment(
@@ -188,23 +201,22 @@ impl Assembly<'_> {
         line: Option<Line>,
         is_joined: bool,
         warnings: &mut Warnings,
-    ) -> Result<Assignment, ImportError> {
+    ) -> Assignment {
         let Some(line) = line else {
             // A side without a line at the edge: of a face in a file that lists no such edge.
-            return Ok(if is_joined { Assignment::Facet } else { Assignment::Border });
+            return if is_joined { Assignment::Facet } else { Assignment::Border };
         };
         let source = &self.plan.sources[line.source as usize];
         match (line.role, is_joined) {
-            (Role::Border, true) => Err(ImportError::BorderInside { element: source.clone() }),
-            (Role::Cut, true) => {
+            (Role::Border | Role::Cut, true) => {
                 warnings.add(WarningKind::ClosedCut, source);
-                Ok(Assignment::Free)
+                Assignment::Free
             }
-            (role, true) => Ok(role.assignment()),
-            (Role::Border | Role::Cut, false) => Ok(Assignment::Border),
+            (role, true) => role.assignment(),
+            (Role::Border | Role::Cut, false) => Assignment::Border,
             (_, false) => {
                 warnings.add(WarningKind::MadeBorder, source);
-                Ok(Assignment::Border)
+                Assignment::Border
             }
         }
     }
@@ -251,30 +263,4 @@ fn outline(triangles: &[[u32; 3]]) -> Vec<u32> {
         }
     }
     longest
-}
-
-impl Assembled {
-    /// Refuses a sheet of several pieces.
-    fn check_connected(&self, plan: &Plan) -> Result<(), ImportError> {
-        let mut joined: Vec<u32> = (0..self.sheet.vertices.len() as u32).collect();
-        for &[a, b, c] in &self.sheet.faces {
-            join(&mut joined, a, b);
-            join(&mut joined, b, c);
-        }
-        let mut first_of: BTreeMap<u32, Source> = BTreeMap::new();
-        for (edge, line) in self.sheet.edges.iter().zip(&self.edge_lines) {
-            if let Some(line) = line {
-                let source = plan.lines[*line as usize].source;
-                let piece = root(&mut joined, edge.vertices[0]);
-                first_of.entry(piece).or_insert_with(|| plan.sources[source as usize].clone());
-            }
-        }
-        if first_of.len() < 2 {
-            return Ok(());
-        }
-        Err(ImportError::Disconnected {
-            pieces: first_of.len(),
-            sources: first_of.into_values().collect(),
-        })
-    }
 }

@@ -17,6 +17,18 @@ pub(super) enum Role {
 }
 
 impl Role {
+    /// Its name in warnings.
+    pub(super) fn name(self) -> &'static str {
+        match self {
+            Self::Border => "border",
+            Self::Cut => "cut",
+            Self::Mountain => "mountain",
+            Self::Valley => "valley",
+            Self::Free => "free hinge",
+            Self::Facet => "facet line",
+        }
+    }
+
     /// The assignment of an edge of this role between two triangles, a cut having opened into borders.
     pub(super) fn assignment(self) -> Assignment {
         match self {
@@ -38,6 +50,8 @@ pub(super) struct Line {
     pub(super) target: f64,
     /// Where it comes from: an index into the list of sources.
     pub(super) source: u32,
+    /// Whether it is a chord of a curve.
+    pub(super) is_curved: bool,
 }
 
 impl Line {

@@ -6,6 +6,13 @@ use thiserror::Error;
 use super::source::{Source, listed};
 use crate::{FoldError, FrameNumber};
 
+impl ImportError {
+    /// Whether another merge tolerance may help.
+    pub(super) fn is_tangle(&self) -> bool {
+        matches!(self, Self::Tangled { .. })
+    }
+}
+
 /// Errors of importing a crease pattern; each names the elements, the value found and what would be right.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
@@ -40,7 +47,8 @@ pub enum ImportError {
     },
     /// The tolerance of flattened curves is out of range.
     #[error(
-        "the tolerance of flattened curves is {}: it must lie between 1e-6 and 0.1 of the diagonal", Number(*value)
+        "pattern.curve_tolerance, the tolerance of curves, is {}: it must lie between 1e-6 and 0.1 of the diagonal",
+        Number(*value)
     )]
     CurveTolerance {
         /// The tolerance, in parts of the diagonal.
@@ -52,14 +60,39 @@ pub enum ImportError {
         /// The value that was given.
         value: f64,
     },
+    /// No crease pattern by its content and its extension.
+    #[error(
+        "this is no crease pattern that is read: FOLD (.fold, JSON), SVG, ORIPA and Oriedita (.cp, .opx), Orihime \
+         (.orh), OBJ with lines and ASCII DXF are"
+    )]
+    Format,
+    /// A line of a text file that cannot be read.
+    #[error("line {line}: {value:?}: {need}")]
+    Line {
+        /// The line, counted from 1.
+        line: usize,
+        /// What the file has there.
+        value: String,
+        /// What is needed instead.
+        need: &'static str,
+    },
     /// Not UTF-8.
     #[error("the bytes from {byte} on are not UTF-8")]
     NotUtf8 {
         /// The index of the first byte that is not UTF-8.
         byte: usize,
     },
-    /// Not XML, or a document type with entities, which are not read.
-    #[error("this is not XML, or has entities, which are not read: {message}")]
+    /// Not UTF-16, which the file starts as.
+    #[error("the file starts as UTF-16, but is cut off or has letters that are not UTF-16")]
+    NotUtf16,
+    /// Entities by which the file could grow without bound.
+    #[error("the entities of the document type are not read: {reason}; save the file without them")]
+    Entities {
+        /// What is wrong with them.
+        reason: &'static str,
+    },
+    /// Not XML.
+    #[error("this is not XML: {message}")]
     Xml {
         /// What is wrong, with line and column.
         message: String,
@@ -85,7 +118,7 @@ pub enum ImportError {
     /// Strokes and elements without a meaning.
     #[error(
         "{} cannot be read: {}; known strokes are #000 border, #f00 mountain, #00f valley, #0f0 cut, #ff0 facet, \
-         #f0f free hinge",
+         #f0f free hinge; pattern.unknown = \"ignore\" leaves out what cannot be read",
         listed(.elements), .reasons.join(", ")
     )]
     Unknown {
@@ -97,7 +130,7 @@ pub enum ImportError {
     /// A pattern too small, too large, or too far from the origin.
     #[error(
         "the pattern is {diagonal:e} across and reaches {farthest:e} from the origin: its diagonal must lie between 1e-30 \
-         and 1e30, and the origin no more than a million diagonals away"
+         and 1e30, and the origin no more than a thousand million diagonals away"
     )]
     Extent {
         /// The diagonal of the drawing.
@@ -111,13 +144,21 @@ pub enum ImportError {
     /// Lines that bound nothing.
     #[error("the lines bound no facet: the pattern needs a closed border (#000 in SVG, B in FOLD)")]
     NoFaces,
-    /// A border with the sheet on both sides.
+    /// Most creases would be left out.
     #[error(
-        "{element} is a border with the sheet on both sides: draw a cut (#0f0 in SVG, C in FOLD) or a crease instead"
+        "of creases {} long, {} would be left out, for they end nowhere ({}): lines that miss each other by more than {} \
+         do not meet; set pattern.vertex_tolerance to more than the largest miss",
+        Number(*length), Number(*dropped), listed(.sources), Number(*tolerance)
     )]
-    BorderInside {
-        /// The line with the error.
-        element: Source,
+    MostDropped {
+        /// The length of the creases that would be left out, in units of the file.
+        dropped: f64,
+        /// The length of all creases, in units of the file.
+        length: f64,
+        /// The tolerance of merging, in units of the file.
+        tolerance: f64,
+        /// The first of the creases.
+        sources: Vec<Source>,
     },
     /// Splitting lines does not come to an end.
     #[error(
@@ -170,11 +211,15 @@ pub enum ImportError {
         /// The elements that the edge comes from.
         sources: Vec<Source>,
     },
-    /// Pieces that nothing joins.
-    #[error("the sheet is in {pieces} pieces, one with {}: only one can be folded", listed(.sources))]
-    Disconnected {
-        /// The number of separate pieces.
-        pieces: usize,
+    /// No piece has the name that was asked for.
+    #[error(
+        "no piece of the sheet is called {name:?}: it has the pieces 0 to {}, one with {}; pattern.piece also takes the \
+         id or class of a line, \"main\", \"largest\" and \"all\"",
+        .sources.len().saturating_sub(1), listed(.sources)
+    )]
+    Piece {
+        /// The name that was asked for.
+        name: String,
         /// One element of each piece.
         sources: Vec<Source>,
     },
@@ -211,16 +256,24 @@ pub enum ImportError {
         /// The fold angle, degrees.
         degrees: f64,
     },
+    /// The stages of a recorded motion cannot be read.
+    #[error(
+        "foldmotion:stages: {message}; a list of lists of fold angles is needed, one entry for each edge"
+    )]
+    RecordedStages {
+        /// What is wrong.
+        message: String,
+    },
     /// A unit of length that FOLD does not know.
     #[error("frame_unit is {found:?}: unit, in, pt, m, cm, mm, um and nm are known")]
     Unit {
         /// The text found there.
         found: String,
     },
-    /// A shape that is not flat.
+    /// A shape that is not flat, without faces by which it could be laid out flat.
     #[error(
-        "{frame} is not flat: vertex {vertex} lies {height:e} off the plane of the others, more than {limit:e}; only a \
-         flat crease pattern can be folded, in the key frame or in a frame of the class creasePattern"
+        "{frame} is not flat: vertex {vertex} lies {height:e} off the plane of the others, more than {limit:e}; give the \
+         flat pattern in a frame of the class creasePattern, or faces_vertices, by which the shape is unfolded"
     )]
     NotFlat {
         /// The frame with the error.
@@ -229,6 +282,22 @@ pub enum ImportError {
         vertex: usize,
         /// The distance of that vertex from the plane.
         height: f64,
+        /// The largest distance allowed.
+        limit: f64,
+    },
+    /// A folded shape whose facets cannot be laid out flat side by side.
+    #[error(
+        "{frame} is folded in space and cannot be laid out flat: laid side by side, its faces place vertex {vertex} at \
+         points {gap:e} apart, more than {limit:e}; cut edges (C) open the sheet, and a frame of the class \
+         creasePattern gives its flat pattern"
+    )]
+    NotDevelopable {
+        /// The frame with the shape.
+        frame: FrameNumber,
+        /// The vertex that two faces place apart.
+        vertex: usize,
+        /// How far apart.
+        gap: f64,
         /// The largest distance allowed.
         limit: f64,
     },

@@ -2,18 +2,21 @@
 
 use glam::DVec2;
 
-/// The most squares a side.
-const MOST_SQUARES: usize = 256;
+/// The most columns, and the most rows.
+const MOST_SQUARES: usize = 512;
 /// The most squares a line passes through on average.
-const MOST_A_LINE: f64 = 16.0;
+const MOST_A_LINE: usize = 16;
 
 /// A grid over the drawing with the lines that pass through each square, by index in order.
+///
+/// Half of the columns are equally wide; the others part the ends of the lines into equal numbers, so that the squares are
+/// small where the lines are dense. So do the rows.
 #[derive(Debug)]
 pub(super) struct Grid {
-    low: DVec2,
-    /// Size of a square.
-    size: DVec2,
-    side: usize,
+    /// Where one column ends and the next begins, ascending.
+    columns: Vec<f64>,
+    /// The same of the rows.
+    rows: Vec<f64>,
     /// The distance from a line within which a square belongs to it.
     margin: f64,
     /// The index of the first line of each square.
@@ -24,29 +27,36 @@ pub(super) struct Grid {
 impl Grid {
     /// The grid of `segments`; a square counts as passed through where a segment comes within `margin`.
     pub(super) fn new(segments: &[[DVec2; 2]], margin: f64) -> Self {
-        let all: Vec<DVec2> = segments.iter().flatten().copied().collect();
-        let [low, high] = super::drawing::bounds(&all).unwrap_or_default();
-        let extent = (high - low).max(DVec2::splat(margin));
-        let taxi = |[a, b]: &[DVec2; 2]| ((*b - *a).abs() / extent).element_sum();
-        let total: f64 = segments.iter().map(taxi).sum();
-        let count = segments.len().max(1) as f64;
-        let side = count.sqrt().min(MOST_A_LINE * count / total.max(1e-9));
-        #[expect(clippy::cast_sign_loss, reason = "counts are not negative")]
-        let side = (side.ceil() as usize).clamp(1, MOST_SQUARES);
-        let mut grid = Self {
-            low,
-            size: extent / side as f64,
-            side,
-            margin,
-            starts: vec![0; side * side + 1],
-            lines: Vec::new(),
+        let sorted = |along: fn(DVec2) -> f64| {
+            let mut ends: Vec<f64> = segments.iter().flatten().map(|&p| along(p)).collect();
+            ends.sort_by(f64::total_cmp);
+            ends
         };
+        let ends = [sorted(|p| p.x), sorted(|p| p.y)];
+        let with = |side: usize| {
+            let [columns, rows] = [&ends[0], &ends[1]].map(|ends| breaks(ends, side));
+            Self { columns, rows, margin, starts: Vec::new(), lines: Vec::new() }
+        };
+        let count = segments.len().max(1);
+        let side = count.isqrt().clamp(1, MOST_SQUARES);
+        let mut grid = with(side);
+        let passed: usize = segments.iter().map(|segment| grid.steps(segment)).sum();
+        if passed > MOST_A_LINE * count {
+            grid = with((side * MOST_A_LINE * count / passed).max(1));
+        }
+        grid.starts = vec![0; grid.squares() + 1];
         grid.fill(segments);
         grid
     }
 
+    /// About as many squares as a segment passes through.
+    fn steps(&self, [a, b]: &[DVec2; 2]) -> usize {
+        let [p, q] = [a, b].map(|p| [place(&self.columns, p.x), place(&self.rows, p.y)]);
+        1 + p[0].abs_diff(q[0]) + p[1].abs_diff(q[1])
+    }
+
     fn fill(&mut self, segments: &[[DVec2; 2]]) {
-        let mut counts = vec![0u32; self.side * self.side];
+        let mut counts = vec![0u32; self.squares()];
         for segment in segments {
             self.passed(segment, |square| counts[square] += 1);
         }
@@ -64,22 +74,16 @@ impl Grid {
         self.lines = lines;
     }
 
-    #[expect(clippy::cast_sign_loss, reason = "raised to 0 before")]
-    fn square_along(&self, along: f64, low: f64, size: f64) -> usize {
-        (((along - low) / size).floor().max(0.0) as usize).min(self.side - 1)
-    }
-
     /// Hands over every square the segment passes through, column by column.
     fn passed(&self, [a, b]: &[DVec2; 2], mut each: impl FnMut(usize)) {
         let (a, b) = if a.x <= b.x { (*a, *b) } else { (*b, *a) };
-        let column = |x| self.square_along(x, self.low.x, self.size.x);
-        let row = |y| self.square_along(y, self.low.y, self.size.y);
         let slope = (b.y - a.y) / (b.x - a.x);
         // Wider than the margin by what rounding can move.
-        let pad = self.margin + 1e-9 * self.size.max_element();
-        for c in column(a.x - pad)..=column(b.x + pad) {
-            let left = self.low.x + c as f64 * self.size.x - pad;
-            let right = left + self.size.x + 2.0 * pad;
+        let pad = self.margin + 1e-12 * a.abs().max(b.abs()).max_element();
+        for c in place(&self.columns, a.x - pad)..=place(&self.columns, b.x + pad) {
+            let before = c.checked_sub(1).map(|before| self.columns[before]);
+            let left = before.unwrap_or(f64::NEG_INFINITY) - pad;
+            let right = self.columns.get(c).copied().unwrap_or(f64::INFINITY) + pad;
             let at = |x: f64| {
                 let y = a.y + slope * (x.clamp(a.x, b.x) - a.x);
                 if y.is_finite() { y } else { a.y }
@@ -94,15 +98,20 @@ impl Grid {
             if b.x - a.x <= 2.0 * pad {
                 (from, to) = (a.y.min(b.y), a.y.max(b.y));
             }
-            for r in row(from - pad)..=row(to + pad) {
-                each(r * self.side + c);
+            for r in place(&self.rows, from - pad)..=place(&self.rows, to + pad) {
+                each(r * self.side() + c);
             }
         }
     }
 
+    /// How many columns there are.
+    fn side(&self) -> usize {
+        self.columns.len() + 1
+    }
+
     /// Squares in all.
     pub(super) fn squares(&self) -> usize {
-        self.side * self.side
+        self.side() * (self.rows.len() + 1)
     }
 
     /// The lines through a square.
@@ -112,20 +121,38 @@ impl Grid {
 
     /// The square a point lies in, the nearest one for a point beside the grid.
     pub(super) fn square(&self, point: DVec2) -> usize {
-        let column = self.square_along(point.x, self.low.x, self.size.x);
-        self.square_along(point.y, self.low.y, self.size.y) * self.side + column
+        place(&self.rows, point.y) * self.side() + place(&self.columns, point.x)
     }
 
     /// The column of a square, from the left.
     pub(super) fn column(&self, square: usize) -> usize {
-        square % self.side
+        square % self.side()
     }
 
     /// The squares to the left of a point, its own first.
     pub(super) fn leftwards(&self, point: DVec2) -> impl Iterator<Item = usize> {
         let own = self.square(point);
-        (0..=own % self.side).map(move |back| own - back)
+        (0..=own % self.side()).map(move |back| own - back)
     }
+}
+
+/// Where to part `sorted` coordinates into about `side` columns.
+fn breaks(sorted: &[f64], side: usize) -> Vec<f64> {
+    let [Some(&low), Some(&high)] = [sorted.first(), sorted.last()] else {
+        return Vec::new();
+    };
+    let half = side.div_ceil(2);
+    let even = (1..half).map(|k| low + (high - low) * k as f64 / half as f64);
+    let dense = (1..half).map(|k| sorted[sorted.len() * k / half]);
+    let mut breaks: Vec<f64> = even.chain(dense).collect();
+    breaks.sort_by(f64::total_cmp);
+    breaks.dedup();
+    breaks
+}
+
+/// The column of a coordinate.
+fn place(breaks: &[f64], along: f64) -> usize {
+    breaks.partition_point(|&end| end <= along)
 }
 
 #[cfg(test)]
@@ -147,5 +174,17 @@ mod tests {
                 assert!(grid.lines(square).contains(&(line as u32)));
             }
         }
+    }
+
+    #[test]
+    fn squares_are_small_where_lines_are_dense() {
+        // All but one of the lines in a millionth of the extent.
+        let at = |k: usize| DVec2::new((k % 50) as f64, (k / 50) as f64);
+        let mut segments: Vec<[DVec2; 2]> =
+            (0..2500).map(|k| [at(k), at(k) + DVec2::new(0.9, 0.4)]).collect();
+        segments.push([DVec2::splat(5e7), DVec2::splat(5e7 + 1.0)]);
+        let grid = Grid::new(&segments, 1e-6);
+        let most = (0..grid.squares()).map(|square| grid.lines(square).len()).max();
+        assert!(most < Some(50), "{most:?}");
     }
 }

@@ -5,8 +5,11 @@ use std::f64::consts::PI;
 use glam::DVec3;
 use serde_json::{Map, Value};
 
-use super::{ImportError, LengthUnit, Source, Warning};
+use super::{ImportError, LengthUnit, Mending, Names, Source, Warning};
 use crate::{Assignment, Sheet};
+
+/// The key of a FOLD file of a motion with the fold angles of every edge at the end of each stage, degrees.
+pub(super) const RECORDED_STAGES: &str = "foldmotion:stages";
 
 /// A crease pattern read from a file: the sheet, and what it is to fold to.
 #[derive(Debug, Clone, PartialEq)]
@@ -30,6 +33,8 @@ pub struct ImportedPattern {
     pub fixed_facets: Vec<u32>,
     /// The elements of the file that the edges come from.
     pub sources: Vec<Source>,
+    /// The names of each of `sources`; empty for FOLD.
+    pub names: Vec<Names>,
     /// The index in `sources` of every edge; `None` for those that cut facets into triangles.
     pub edge_sources: Vec<Option<u32>>,
     /// The FOLD vertex every vertex comes from; `None` if lines were drawn or split.
@@ -37,8 +42,13 @@ pub struct ImportedPattern {
     /// The vertices as a FOLD file places them, if they are not in the plane z = 0 with the fronts up: its
     /// coordinates, for the vertices of the sheet.
     pub shape: Option<Vec<DVec3>>,
+    /// What was done about lines that nearly meet, and which creases were left out.
+    pub mending: Mending,
     /// What was changed or left out, one warning for each kind.
     pub warnings: Vec<Warning>,
+    /// The orders of two facets that a FOLD file gives for the flat state, `faceOrders`: the first lies on the side of the
+    /// second one's front (1) or back (−1).
+    pub face_orders: Vec<(u32, u32, i8)>,
     /// The keys of a FOLD file's key frame that are not read; see [`Self::fold`].
     pub keys: Map<String, Value>,
     /// The numbers of vertices, edges and faces that the FOLD file lists.
@@ -57,6 +67,24 @@ pub struct PatternStage {
 }
 
 impl ImportedPattern {
+    /// The keys of a FOLD file of a motion of this pattern that ends each of its stages at `waypoints`, the fold angles of
+    /// every edge in radians: those of [`Self::keys_of_triangles`], and the stages if there are several.
+    pub fn keys_of_motion(&self, waypoints: &[Vec<f64>]) -> Map<String, Value> {
+        let mut keys = self.keys_of_triangles();
+        if waypoints.len() > 1 {
+            let is_hinge = |edge: &crate::Edge| edge.is_crease() && edge.is_hinge();
+            let degrees = |(edge, angle): (&crate::Edge, &f64)| {
+                is_hinge(edge).then(|| angle.to_degrees().clamp(-180.0, 180.0))
+            };
+            let stage = |angles: &Vec<f64>| -> Vec<Option<f64>> {
+                self.sheet.edges.iter().zip(angles).map(degrees).collect()
+            };
+            let stages: Vec<_> = waypoints.iter().map(stage).collect();
+            keys.insert(RECORDED_STAGES.to_owned(), serde_json::json!(stages));
+        }
+        keys
+    }
+
     /// The fold angle of every edge, radians, at a fold percentage as in Origami Simulator: the targets times
     /// `fraction`, −1 to 1.
     ///
@@ -67,6 +95,14 @@ impl ImportedPattern {
             return Err(ImportError::Percentage { value: fraction });
         }
         Ok(self.targets.iter().map(|target| target * fraction).collect())
+    }
+
+    /// Whether two facets meet at a mountain or valley crease or at a free hinge.
+    pub fn has_creases(&self) -> bool {
+        let mut edges = self.sheet.edges.iter();
+        edges.any(|edge| {
+            edge.is_hinge() && (edge.is_crease() || edge.assignment == Assignment::Free)
+        })
     }
 
     /// The edges that nothing drives and nothing holds.

@@ -28,8 +28,8 @@ pub(super) fn end_of(start: u32) -> u32 {
 /// Numbers the vertices anew where cuts part them; `role`: of the line between two ends.
 ///
 /// Corners at one vertex stay together if a path from triangle to triangle around the vertex joins them without
-/// crossing a cut or the border. Returns for each new vertex the one it comes from; the first part of a vertex keeps
-/// its number. Only vertices at which a cut ends are parted. `vertices`: how many there are.
+/// crossing a cut or a border, which is a cut inside the sheet. Returns for each new vertex the one it comes from; the
+/// first part of a vertex keeps its number. Only vertices at which a cut ends are parted. `vertices`: how many there are.
 pub(super) fn open_cuts(
     corners: &mut [[u32; 3]],
     vertices: usize,
@@ -39,7 +39,7 @@ pub(super) fn open_cuts(
     let mut is_cut = vec![false; vertices];
     for (ends, starts) in sides(corners) {
         let &[s, t] = starts.as_slice() else { continue };
-        if role(ends) == Role::Cut {
+        if matches!(role(ends), Role::Cut | Role::Border) {
             for v in ends {
                 is_cut[v as usize] = true;
             }

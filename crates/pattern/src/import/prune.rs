@@ -11,6 +11,9 @@ use super::warning::{WarningKind, Warnings};
 /// Lines as near to one straight line as this are joined, in parts of the tolerance of merging.
 const STRAIGHT: f64 = 0.01;
 
+/// How much an end that meets nothing counts beside a line that lies on another, which may be a near miss mended.
+const STRAY: usize = 4;
+
 impl Graph {
     /// The lines at each vertex.
     pub(super) fn lines_at(&self) -> Vec<Vec<u32>> {
@@ -23,21 +26,23 @@ impl Graph {
         at
     }
 
-    /// Leaves out lines that end nowhere, again and again; cuts may end inside a facet.
+    /// Leaves out lines that end nowhere, again and again; cuts, and borders drawn for cuts, may end inside a facet.
     pub(super) fn drop_strays(&mut self, sources: &[Source], warnings: &mut Warnings) {
         let mut at = self.lines_at();
         let mut is_dropped = vec![false; self.lines.len()];
         let mut ends: Vec<u32> =
             (0..self.points.len() as u32).filter(|&v| at[v as usize].len() == 1).collect();
+        self.lost += STRAY * ends.len();
         while let Some(vertex) = ends.pop() {
             let &[index] = at[vertex as usize].as_slice() else {
                 continue;
             };
             let line = &self.lines[index as usize];
-            if line.role == Role::Cut {
+            if matches!(line.role, Role::Cut | Role::Border) {
                 continue;
             }
             is_dropped[index as usize] = true;
+            self.mending.drop(line, &self.points, sources);
             warnings.add(WarningKind::Stray, &sources[line.source as usize]);
             for v in line.ends {
                 at[v as usize].retain(|&other| other != index);

@@ -14,8 +14,19 @@ pub enum Source {
     FoldFace(u32),
     /// An entry of `vertices_coords`.
     FoldVertex(u32),
+    /// The key frame of a FOLD file.
+    KeyFrame,
     /// An element of `file_frames`.
     FoldFrame(u32),
+    /// The outline of all lines, for a drawing without a border.
+    Outline,
+    /// A line or an entity of a file that is neither FOLD nor SVG.
+    Entry {
+        /// What it is, such as `line` or `ARC on layer "valley"`.
+        what: String,
+        /// The line of the file on which it starts, counted from 1.
+        line: u32,
+    },
     /// An element of an SVG.
     Svg {
         /// Its name: `path`, `line` …
@@ -30,6 +41,10 @@ pub enum Source {
 }
 
 impl Source {
+    pub(super) fn entry(what: &str, line: usize) -> Self {
+        Self::Entry { what: what.chars().take(LONGEST_ID).collect(), line: line as u32 }
+    }
+
     pub(super) fn svg(tag: &str, id: Option<&str>, [line, column]: [u32; 2]) -> Self {
         let short = |text: &str| text.chars().take(LONGEST_ID).collect();
         Self::Svg { tag: short(tag), id: id.map(short), line, column }
@@ -42,7 +57,10 @@ impl fmt::Display for Source {
             Self::FoldEdge(index) => write!(f, "edge {index}"),
             Self::FoldFace(index) => write!(f, "face {index}"),
             Self::FoldVertex(index) => write!(f, "vertex {index}"),
+            Self::KeyFrame => write!(f, "the key frame"),
             Self::FoldFrame(index) => write!(f, "file_frames[{index}]"),
+            Self::Outline => f.write_str("the outline of the lines"),
+            Self::Entry { what, line } => write!(f, "{what} (line {line})"),
             Self::Svg { tag, id, line, column } => match id {
                 Some(id) => write!(f, "<{tag} id={id:?}> (line {line})"),
                 None => write!(f, "<{tag}> (line {line}, column {column})"),

@@ -4,6 +4,7 @@ use glam::DVec2;
 
 use super::drawing::{Drawing, Line};
 use super::grid::Grid;
+use super::mending::Mending;
 use super::options::MOST_PIECES;
 use super::predicate::{cross, from_segment};
 use super::vertices::Vertices;
@@ -16,6 +17,8 @@ const MOST_PASSES: usize = 16;
 /// How near a line a vertex lies on it in later passes, in parts of the tolerance: no more than half, so that the
 /// pieces of a line split at a vertex beside it are shorter than the line, and splitting ends.
 const ON_LINE: f64 = 0.5;
+/// How far a point is moved without being said to be, in parts of the tolerance.
+const EXACT: f64 = 1e-3;
 /// The most pairs of lines held against each other.
 const MOST_PAIRS: u64 = 1_000_000_000;
 
@@ -26,6 +29,10 @@ pub(super) struct Graph {
     /// The point of the drawing each point comes from; `None` for crossings.
     pub(super) origins: Vec<Option<u32>>,
     pub(super) lines: Vec<Line>,
+    /// What was done about lines that nearly meet.
+    pub(super) mending: Mending,
+    /// Lines that vanished or lie on others, and four times the ends that meet nothing.
+    pub(super) lost: usize,
 }
 
 /// The lines being split, and the warnings about them.
@@ -37,6 +44,8 @@ struct Splitting<'a> {
     sources: &'a [Source],
     warnings: &'a mut Warnings,
     pairs: u64,
+    mending: Mending,
+    lost: usize,
 }
 
 /// The planar graph of a drawing: ends within `tolerance` of each other are one vertex, ends within it of a line lie on
@@ -60,6 +69,8 @@ pub(super) fn planar_graph(
         sources: &drawing.sources,
         warnings,
         pairs: 0,
+        mending: Mending { tolerance, ..Mending::default() },
+        lost: 0,
     };
     let mut lines = splitting.merged(drawing);
     for pass in 0..MOST_PASSES {
@@ -72,7 +83,11 @@ pub(super) fn planar_graph(
             let drawn = splitting.origins.into_iter().map(Some);
             let mut origins: Vec<_> = drawn.collect();
             origins.resize(points.len(), None);
-            return Ok(Graph { points, origins, lines });
+            let Splitting { mut mending, lost, .. } = splitting;
+            for line in &lines {
+                mending.draw(line, &points);
+            }
+            return Ok(Graph { points, origins, lines, mending, lost });
         }
     }
     Err(ImportError::Tangled { passes: MOST_PASSES, tolerance })
@@ -86,6 +101,7 @@ impl Splitting<'_> {
     /// The lines between vertices; those of a drawing with near ends made one.
     fn merged(&mut self, drawing: &Drawing) -> Vec<Line> {
         let mut lines = Vec::with_capacity(drawing.lines.len());
+        let mut is_moved = vec![false; drawing.points.len()];
         for line in &drawing.lines {
             let points = line.ends.map(|v| drawing.points[v as usize]);
             let mut ends = [0; 2];
@@ -95,18 +111,21 @@ impl Splitting<'_> {
                     self.origins.push(point);
                 }
             }
-            let is_moved = |(p, v): (&DVec2, &u32)| {
-                self.vertices.points[*v as usize].distance(*p) > 1e-3 * self.tolerance
-            };
+            for ((point, drawn), vertex) in points.iter().zip(line.ends).zip(ends) {
+                let moved = self.vertices.points[vertex as usize].distance(*point);
+                is_moved[drawn as usize] |= moved > EXACT * self.tolerance;
+            }
             if ends[0] == ends[1] {
                 self.warn(WarningKind::TooShort, line);
+                self.lost += 1;
                 continue;
             }
-            if points.iter().zip(&ends).any(is_moved) {
+            if line.ends.iter().any(|&drawn| is_moved[drawn as usize]) {
                 self.warn(WarningKind::Merged, line);
             }
             lines.push(Line { ends, ..*line });
         }
+        self.mending.merged = is_moved.iter().filter(|moved| **moved).count();
         self.unique(lines)
     }
 
@@ -144,7 +163,7 @@ impl Splitting<'_> {
 
     /// Finds the vertices within `on_line` of each line.
     fn vertices_on(
-        &self,
+        &mut self,
         lines: &[Line],
         segments: &[[DVec2; 2]],
         grid: &Grid,
@@ -156,15 +175,22 @@ impl Splitting<'_> {
             is_end[v as usize] = true;
         }
         let ends = self.vertices.points.iter().enumerate();
+        let mut snapped = 0;
         for (vertex, &point) in ends.filter(|(v, _)| is_end[*v]) {
             for &line in grid.lines(grid.square(point)) {
                 let is_own = lines[line as usize].ends.contains(&(vertex as u32));
                 let segment = segments[line as usize];
-                if !is_own && from_segment(segment, point).0 <= on_line {
+                if is_own {
+                    continue;
+                }
+                let (off, _) = from_segment(segment, point);
+                if off <= on_line {
                     on[line as usize].push(vertex as u32);
+                    snapped += usize::from(off > EXACT * self.tolerance);
                 }
             }
         }
+        self.mending.snapped += snapped;
     }
 
     /// Makes a vertex of each crossing.
@@ -216,6 +242,7 @@ impl Splitting<'_> {
         for line in lines {
             match kept.last() {
                 Some(last) if last.key() == line.key() => {
+                    self.lost += 1;
                     let is_same = last.role == line.role && last.target == line.target;
                     if last.source != line.source {
                         self.warn(

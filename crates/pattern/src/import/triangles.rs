@@ -5,6 +5,7 @@ use glam::DVec2;
 use super::ImportError;
 use super::plan::Plan;
 use super::predicate::{from_segment, side};
+use super::rulings;
 use crate::delaunay::delaunay;
 use crate::facet_model::split;
 
@@ -22,20 +23,28 @@ pub(super) struct Triangles {
 /// The triangles of every facet, counter-clockwise, without new vertices.
 ///
 /// Convex quadrilaterals are cut along the shorter diagonal (ties by the lowest vertex); facets with more corners, with
-/// holes or with lines inside by the constrained Delaunay triangulation (Chew 1989).
+/// holes or with lines inside by the constrained Delaunay triangulation (Chew 1989), whose diagonals are exchanged for
+/// rulings beside curved creases.
 ///
 /// # Errors
 /// [`ImportError::Facet`] for a facet whose loops cross or have no area.
 pub(super) fn triangles(plan: &Plan) -> Result<Triangles, ImportError> {
     let mut triangles = Triangles::default();
+    let lines = rulings::by_ends(&plan.lines);
     for (index, loops) in plan.facets.iter().enumerate() {
         let cut = match loops.as_slice() {
             [one] => simple(one, &plan.points),
             _ => None,
         };
-        let cut = cut
+        let mut cut = cut
             .or_else(|| delaunay(loops, &plan.points))
             .ok_or_else(|| facet_error(plan, index))?;
+        if plan.has_rulings {
+            let tangents = rulings::tangents(loops, &plan.points, &lines);
+            if !tangents.is_empty() && cut.len() > 2 {
+                rulings::align(&mut cut, &plan.points, &tangents, |key| lines.contains_key(&key));
+            }
+        }
         triangles.facets.extend(cut.iter().map(|_| index as u32));
         triangles.corners.extend(cut);
     }

@@ -3,11 +3,13 @@
 use serde_json::{Map, Value, json};
 
 use super::ImportedPattern;
+use super::imported::RECORDED_STAGES;
 use crate::fold::object_text;
 use crate::{Assignment, Sheet};
 
 /// Keys of FOLD that say what this writer says itself, or that a changed sheet makes wrong.
-const OWN: [&str; 18] = [
+const OWN: [&str; 19] = [
+    RECORDED_STAGES,
     "file_spec",
     "file_creator",
     "file_frames",

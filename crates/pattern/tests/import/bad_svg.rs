@@ -31,11 +31,42 @@ fn files_that_are_no_svg_are_refused() {
 }
 
 #[test]
-fn entity_bombs_are_refused_with_the_document_type() {
-    let bomb = "<!DOCTYPE svg [<!ENTITY a \"aaaaaaaaaa\"><!ENTITY b \"&a;&a;&a;&a;&a;&a;\">]>\
-                <svg xmlns=\"http://www.w3.org/2000/svg\"><path d=\"&b;\"/></svg>";
-    let refused = error(bomb);
-    assert!(matches!(refused, ImportError::Xml { .. }), "{refused}");
+fn entity_bombs_are_refused() {
+    let with = |entities: &str, body: &str| {
+        error(&format!("<!DOCTYPE svg [{entities}]>{}", document("", body)))
+    };
+    let nested = "<!ENTITY a \"aaaaaaaaaa\"><!ENTITY b \"&a;&a;&a;&a;&a;&a;\">";
+    let long = format!("<!ENTITY a \"{}\">", "M0 0".repeat(2_000));
+    let many = "<!ENTITY a \"b\">".repeat(300);
+    let wide = format!("<!ENTITY a \"{}\">", "M0 0".repeat(1_000));
+    for (entities, body) in [
+        (nested, "<path d=\"&b;\"/>".to_owned()),
+        (&long, "<path d=\"&a;\"/>".to_owned()),
+        (&many, "<path d=\"&a;\"/>".to_owned()),
+        (&wide, format!("<path d=\"{}\"/>", "&a;".repeat(10_000))),
+    ] {
+        let refused = with(entities, &body);
+        assert!(matches!(refused, ImportError::Entities { .. }), "{refused}");
+    }
+    let unknown = with("<!ENTITY a SYSTEM \"/etc/passwd\">", "<path d=\"&a;\"/>");
+    assert!(matches!(unknown, ImportError::Xml { .. }), "{unknown}");
+}
+
+#[test]
+fn uses_that_grow_without_bound_are_refused() {
+    let own = document("", "<g id=\"a\"><use href=\"#a\"/></g>");
+    assert!(matches!(error(&own), ImportError::Attribute { name: "href", .. }));
+    let each_other = "<defs><g id=\"a\"><use href=\"#b\"/></g><g id=\"b\"><use href=\"#a\"/></g></defs>\
+                      <use href=\"#a\"/>";
+    let refused = error(&document("", each_other));
+    assert!(matches!(refused, ImportError::Attribute { name: "href", .. }), "{refused}");
+    let mut laughs = "<g id=\"l0\"><path d=\"M0 0H1\" stroke=\"red\"/></g>".to_owned();
+    for level in 1..10 {
+        let used = format!("<use href=\"#l{}\"/>", level - 1).repeat(10);
+        let _ = write!(laughs, "<g id=\"l{level}\">{used}</g>");
+    }
+    let refused = error(&document("", &format!("<defs>{laughs}</defs><use href=\"#l9\"/>")));
+    assert!(matches!(refused, ImportError::TooMany { .. }), "{refused}");
 }
 
 #[test]
@@ -49,7 +80,8 @@ fn a_document_type_without_entities_is_no_harm() {
 #[test]
 fn nothing_drawn_and_nothing_bounded_are_distinguished() {
     assert_eq!(error(&document("", "")), ImportError::Empty);
-    assert_eq!(error(&document("", "<rect width=\"4\" height=\"4\"/>")), ImportError::Empty);
+    let unfilled = "<rect width=\"4\" height=\"4\" fill=\"none\"/>";
+    assert_eq!(error(&document("", unfilled)), ImportError::Empty);
     let open = document("", "<path d=\"M0 0H10V10\" stroke=\"black\"/>");
     assert_eq!(error(&open), ImportError::NoFaces);
     let point = document("", "<path d=\"M3 3L3 3\" stroke=\"black\"/>");
@@ -144,7 +176,7 @@ fn sizes_beyond_reckoning_are_refused() {
         };
         assert!(is_named, "{refused}");
     }
-    let far = format!("<g transform=\"translate(1e9 0)\">{SQUARE}</g>");
+    let far = format!("<g transform=\"translate(1e12 0)\">{SQUARE}</g>");
     assert!(matches!(error(&document("", &far)), ImportError::Extent { .. }));
 }
 

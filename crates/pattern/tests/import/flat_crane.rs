@@ -3,6 +3,7 @@
 use std::collections::BTreeSet;
 use std::f64::consts::{FRAC_1_SQRT_2, SQRT_2};
 
+use foldmotion_pattern::{FlatFolding, FoundLayers, LayerOptions, LayerOrder};
 use glam::DVec2;
 
 use crate::crane::{BEAK, CENTRE, CORNER, Point, Quarter, WING_TIP, crane, on_ray, place};
@@ -129,5 +130,44 @@ fn the_layers_of_the_crane_lie_in_an_order_in_which_no_paper_crosses() {
             let wrong = places.map(|(place, facet)| if *facet == moved { layer } else { *place });
             assert!(folded.crossings(&wrong.collect::<Vec<_>>()) > 0);
         }
+    }
+}
+
+/// The place of every triangle in a stack that an order allows, from front to back; triangles of one facet share theirs.
+fn stack_of(folded: &Folded<'_>, order: &LayerOrder) -> Vec<usize> {
+    let facets = &folded.imported.sheet.face_facets;
+    let mut behind = vec![BTreeSet::new(); folded.imported.sheet.facets.len()];
+    for (f, g, sign) in order.iter() {
+        if (sign > 0) == folded.shows_front(g) {
+            behind[facets[f as usize] as usize].insert(facets[g as usize] as usize);
+        }
+    }
+    let mut places = vec![usize::MAX; behind.len()];
+    for place in 0..places.len() {
+        let is_in_front = |&facet: &usize| {
+            let hides = |(other, hidden): (usize, &BTreeSet<usize>)| {
+                places[other] == usize::MAX && hidden.contains(&facet)
+            };
+            places[facet] == usize::MAX && !behind.iter().enumerate().any(hides)
+        };
+        let next = (0..places.len()).find(is_in_front).unwrap();
+        places[next] = place;
+    }
+    facets.iter().map(|&facet| places[facet as usize]).collect()
+}
+
+#[test]
+fn the_order_that_is_found_for_the_crane_is_one_in_which_no_paper_crosses() {
+    for imported in both(&crane()) {
+        let options = LayerOptions { solutions: 100_000, ..LayerOptions::default() };
+        let folding = FlatFolding::find(&imported, &imported.targets, &options).unwrap();
+        assert!(folding.state.misfit < 1e-12);
+        let FoundLayers::Order { order, solutions } = folding.found else {
+            panic!("{:?}", folding.found);
+        };
+        assert!(solutions.unwrap() >= 1);
+        let folded = Folded::new(&imported, FRONT);
+        let stack = stack_of(&folded, &order);
+        assert_eq!((folded.denied(&stack), folded.crossings(&stack)), (0, 0));
     }
 }

@@ -94,9 +94,8 @@ fn letters_and_angles_say_how_an_edge_folds() {
 fn a_cut_between_two_faces_parts_them_where_it_can() {
     let mut file = two_triangles();
     file["edges_assignment"][4] = json!("C");
-    let error = try_import(&file).unwrap_err();
-    assert!(matches!(error, ImportError::Disconnected { pieces: 2, .. }), "{error}");
-    assert!(error.to_string().contains("edge 0"), "{error}");
+    let parted = import(&file);
+    assert_eq!((parted.sheet.facets.len(), parted.euler_characteristic()), (2, 2));
     // A cut from the border to the middle: one vertex more, and a notch instead of two hinges.
     let notched = json!({
         "vertices_coords": [[0, 0], [1, 0], [1, 1], [0, 1], [0.5, 0.5]],
@@ -198,15 +197,29 @@ fn planes_other_than_z_0_are_turned_into_it_fronts_up() {
 }
 
 #[test]
-fn a_folded_key_frame_is_refused_unless_a_frame_is_the_pattern() {
+fn a_folded_key_frame_is_laid_out_flat_unless_a_frame_is_the_pattern() {
     let mut file = two_triangles();
     file["frame_classes"] = json!(["foldedForm"]);
     let flat = file["vertices_coords"].clone();
     file["vertices_coords"] = json!([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0.5]]);
-    let error = try_import(&file).unwrap_err();
+    assert_eq!(warned(&import(&file), WarningKind::Unfolded), 1);
+    // Without faces nothing says how.
+    let mut bare = file.clone();
+    bare.as_object_mut().unwrap().remove("faces_vertices");
+    let error = try_import(&bare).unwrap_err();
     assert!(matches!(error, ImportError::NotFlat { .. }), "{error}");
     // The same square folded over its diagonal, in the plane.
-    file["vertices_coords"] = json!([[0, 0], [1, 0], [1, 1], [1, 0.0001]]);
+    file["vertices_coords"] = json!([[0, 0], [1, 0], [1, 1], [1, 0]]);
+    let imported = import(&file);
+    let distances = |sheet: &foldmotion_pattern::Sheet| {
+        [1, 3].map(|v| sheet.vertices[v].distance(sheet.vertices[0]))
+    };
+    assert_eq!(distances(&imported.sheet), [1.0, 1.0]);
+    let across = imported.sheet.vertices[1].distance(imported.sheet.vertices[3]);
+    assert!((across - 2f64.sqrt()).abs() < 1e-15);
+    assert!(imported.targets.contains(&-PI));
+    // Laid flat by the listed class alone: without it, the faces overlap.
+    file.as_object_mut().unwrap().remove("frame_classes");
     let error = try_import(&file).unwrap_err();
     assert!(matches!(error, ImportError::Overlap { .. }), "{error}");
     file["file_frames"] = json!([{
@@ -250,8 +263,8 @@ fn what_no_face_needs_is_left_out_with_a_warning() {
             }
         }
     }
-    // Edges to the unused vertex, listed twice with another meaning, and a face the wrong way round.
-    for (edge, letter) in [([0, 1], "M"), ([1, 3], "V"), ([1, 3], "M")] {
+    // Edges listed twice with another meaning, and a face the wrong way round.
+    for (edge, letter) in [([1, 3], "V"), ([1, 3], "M")] {
         file["edges_vertices"].as_array_mut().unwrap().push(json!(edge));
         file["edges_assignment"].as_array_mut().unwrap().push(json!(letter));
     }
@@ -260,9 +273,8 @@ fn what_no_face_needs_is_left_out_with_a_warning() {
     assert_eq!(imported.vertex_sources, [1, 2, 3, 4].map(Some));
     for (kind, source) in [
         (WarningKind::UnusedVertex, Source::FoldVertex(0)),
-        (WarningKind::NoFace, Source::FoldEdge(5)),
-        (WarningKind::Conflict, Source::FoldEdge(6)),
-        (WarningKind::Duplicate, Source::FoldEdge(7)),
+        (WarningKind::Conflict, Source::FoldEdge(5)),
+        (WarningKind::Duplicate, Source::FoldEdge(6)),
         (WarningKind::Turned, Source::FoldFace(1)),
     ] {
         let warning = imported.warnings.iter().find(|w| w.kind == kind).unwrap();

@@ -67,6 +67,11 @@ impl<'a> Folded<'a> {
         })
     }
 
+    /// Whether a triangle shows its front.
+    pub(crate) fn shows_front(&self, face: u32) -> bool {
+        self.places[face as usize].matrix2.determinant() > 0.0
+    }
+
     /// Whether the walk meets itself around every vertex.
     pub(crate) fn closes(&self) -> bool {
         let meets = |(from, to, turn): (usize, usize, DAffine2)| {

@@ -10,14 +10,14 @@ use crate::draw::{Pattern, bird_base, frame, miura, pop_up, square_twist};
 use crate::patterns::{check_sheet, counts};
 use crate::svg::document;
 
-fn import_with(options: ImportOptions, body: &str) -> Result<ImportedPattern, ImportError> {
-    let imported = import_svg(document("", body).as_bytes(), &options)?;
+fn import_with(options: &ImportOptions, body: &str) -> Result<ImportedPattern, ImportError> {
+    let imported = import_svg(document("", body).as_bytes(), options)?;
     check_sheet(&imported);
     Ok(imported)
 }
 
 fn import(body: &str) -> ImportedPattern {
-    import_with(ImportOptions::default(), body).unwrap()
+    import_with(&ImportOptions::default(), body).unwrap()
 }
 
 fn warned(imported: &ImportedPattern, kind: WarningKind) -> usize {
@@ -71,7 +71,7 @@ fn random_lines_across_have_as_many_facets_as_crossings_say() {
             merge: Some(MergeTolerance::Relative(1e-11)),
             ..ImportOptions::default()
         };
-        let imported = import_with(options, &body).unwrap();
+        let imported = import_with(&options, &body).unwrap();
         assert_eq!(imported.sheet.facets.len(), 1 + count + crossings);
         assert_eq!(imported.euler_characteristic(), 1);
     }
@@ -97,7 +97,7 @@ fn many_lines_through_nearly_one_point_become_one_sheet() {
             merge: Some(MergeTolerance::Relative(merge)),
             ..ImportOptions::default()
         };
-        let imported = import_with(options, &body).unwrap();
+        let imported = import_with(&options, &body).unwrap();
         assert_eq!(imported.euler_characteristic(), 1, "{merge}");
     }
 }
@@ -112,14 +112,15 @@ fn ends_that_nearly_meet_are_merged_within_the_tolerance_only() {
     assert!(warned(&imported, WarningKind::Merged) > 0);
     let exact =
         ImportOptions { merge: Some(MergeTolerance::Relative(1e-6)), ..ImportOptions::default() };
-    let imported = import_with(exact, &body).unwrap();
-    assert_eq!((imported.sheet.facets.len(), warned(&imported, WarningKind::Stray)), (1, 2));
+    let error = import_with(&exact, &body).unwrap_err();
+    assert!(matches!(error, ImportError::MostDropped { .. }), "{error}");
     // Origami Simulator's 3 units.
     let body = square(&line([50.0, 2.0, 50.0, 98.0], "red"));
     let simulator =
         ImportOptions { merge: Some(MergeTolerance::Absolute(3.0)), ..ImportOptions::default() };
-    assert_eq!(import_with(simulator, &body).unwrap().sheet.facets.len(), 2);
-    assert_eq!(import(&body).sheet.facets.len(), 1);
+    assert_eq!(import_with(&simulator, &body).unwrap().sheet.facets.len(), 2);
+    let error = import_with(&ImportOptions::default(), &body).unwrap_err();
+    assert!(error.to_string().contains("pattern.vertex_tolerance"), "{error}");
     for merge in [
         MergeTolerance::Relative(0.0),
         MergeTolerance::Relative(f64::NAN),
@@ -128,7 +129,7 @@ fn ends_that_nearly_meet_are_merged_within_the_tolerance_only() {
         MergeTolerance::Absolute(1e9),
     ] {
         let options = ImportOptions { merge: Some(merge), ..ImportOptions::default() };
-        let error = import_with(options, &body).unwrap_err();
+        let error = import_with(&options, &body).unwrap_err();
         assert!(matches!(error, ImportError::Tolerance { .. }), "{error}");
     }
 }
@@ -192,17 +193,23 @@ fn nested_holes_and_islands_are_distinguished() {
     let imported = import(&(ring(0.0, "black") + &ring(20.0, "red") + &ring(30.0, "black")));
     assert_eq!((imported.sheet.facets.len(), imported.euler_characteristic()), (2, 0));
     // An island in the hole is a second piece.
-    let body = ring(0.0, "black") + &ring(20.0, "black") + &ring(30.0, "black");
-    let error = import_with(ImportOptions::default(), &body).unwrap_err();
-    assert!(matches!(error, ImportError::Disconnected { pieces: 2, .. }), "{error}");
+    let imported = import(&(ring(0.0, "black") + &ring(20.0, "black") + &ring(30.0, "black")));
+    assert_eq!((imported.sheet.facets.len(), imported.euler_characteristic()), (1, 0));
+    assert_eq!(warned(&imported, WarningKind::OtherPiece), 1);
 }
 
 #[test]
-fn a_border_with_the_sheet_on_both_sides_is_refused_by_element() {
-    let body = square("<path id=\"middle\" d=\"M50 0V100\" stroke=\"black\"/>");
-    let error = import_with(ImportOptions::default(), &body).unwrap_err();
-    assert!(matches!(error, ImportError::BorderInside { .. }), "{error}");
-    assert!(error.to_string().contains("middle"), "{error}");
+fn a_border_with_the_sheet_on_both_sides_is_a_cut() {
+    for slit in ["M50 0V60", "M50 0V40M50 40V60"] {
+        let drawn = |colour: &str| {
+            let crease = line([50.0, 60.0, 50.0, 100.0], "red");
+            import(&square(&format!("<path d=\"{slit}\" stroke=\"{colour}\"/>{crease}")))
+        };
+        let (border, cut) = (drawn("black"), drawn("#0f0"));
+        assert_eq!((&border.sheet, &border.targets), (&cut.sheet, &cut.targets));
+        assert_eq!(warned(&border, WarningKind::InnerBorder), 1);
+        assert_eq!(warned(&cut, WarningKind::InnerBorder), 0);
+    }
 }
 
 #[test]

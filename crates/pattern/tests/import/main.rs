@@ -2,6 +2,7 @@
 
 #![expect(clippy::unwrap_used, clippy::panic, reason = "a test stops where something is missing")]
 
+mod as_drawn;
 mod bad_fold;
 mod bad_svg;
 mod crane;
@@ -9,7 +10,10 @@ mod draw;
 mod flat_crane;
 mod fold;
 mod folded;
+mod formats;
+mod frames;
 mod geometry;
+mod mending;
 mod patterns;
 mod round_trip;
 mod svg;

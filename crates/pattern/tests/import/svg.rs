@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use foldmotion_pattern::{
-    Assignment, Curves, ImportError, ImportOptions, ImportedPattern, LengthUnit, Source,
+    Assignment, CurvedFacets, ImportError, ImportOptions, ImportedPattern, LengthUnit, Source,
     UnknownElements, WarningKind, import_svg,
 };
 use glam::DVec2;
@@ -224,22 +224,24 @@ fn every_edge_knows_its_element_and_line() {
 #[test]
 fn unknown_strokes_are_refused_by_element_or_left_out() {
     let body = "<rect width=\"10\" height=\"10\" stroke=\"black\"/>\n<path id=\"p\" d=\"M5 0V10\" stroke=\"#888\"/>\n\
-                <circle r=\"3\" stroke=\"red\"/><path d=\"M1 1A2 2 0 0 1 3 3\" stroke=\"red\"/>\
-                <path d=\"M1 1L5 5\" stroke=\"#zzz\"/><path d=\"M1 1Q3 3 5 6\" stroke=\"#00f\"/>";
+                <path d=\"M1 1L5 5\" stroke=\"#zzz\"/><use href=\"#none\"/>";
     let text = document("", body);
-    let mut options = ImportOptions::default();
+    let mut options = ImportOptions { unknown: UnknownElements::Refuse, ..Default::default() };
     let refused = import_svg(text.as_bytes(), &options).unwrap_err();
     let ImportError::Unknown { elements, reasons } = &refused else { panic!("{refused}") };
-    assert_eq!((elements.len(), reasons.len()), (5, 5), "{refused}");
+    assert_eq!((elements.len(), reasons.len()), (3, 3), "{refused}");
     let message = refused.to_string();
-    for part in ["<path id=\"p\"> (line 3)", "#888", "circle", "#zzz", "arcs", "curves"] {
+    for part in ["<path id=\"p\"> (line 3)", "#888", "#zzz", "#none", "pattern.unknown"] {
         assert!(message.contains(part), "{message}");
     }
+    options.unknown = UnknownElements::Auxiliary;
+    let refused = import_svg(text.as_bytes(), &options).unwrap_err();
+    assert!(matches!(&refused, ImportError::Unknown { elements, .. } if elements.len() == 2));
     options.unknown = UnknownElements::Ignore;
     let imported = import_svg(text.as_bytes(), &options).unwrap();
     assert_eq!(imported.sheet.facets.len(), 1);
     let ignored = imported.warnings.iter().find(|w| w.kind == WarningKind::Ignored);
-    assert_eq!(ignored.unwrap().count, 5);
+    assert_eq!(ignored.unwrap().count, 2);
 }
 
 #[test]
@@ -267,8 +269,11 @@ fn flattened_curves_stay_within_their_tolerance_of_the_circle_they_draw() {
         "<path d=\"M0 0H10C10 {k} {k} 10 0 10Z\" stroke=\"black\" transform=\"translate(3 4)\"/>"
     );
     for tolerance in [1e-2, 1e-3, 1e-4] {
-        let options =
-            ImportOptions { curves: Curves::Flatten(tolerance), ..ImportOptions::default() };
+        let options = ImportOptions {
+            curve_tolerance: Some(tolerance),
+            curved_facets: CurvedFacets::Delaunay,
+            ..ImportOptions::default()
+        };
         let imported = import_svg(document("", &body).as_bytes(), &options).unwrap();
         check_sheet(&imported);
         let centre = DVec2::new(3.0, -4.0);

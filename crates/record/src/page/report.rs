@@ -181,7 +181,7 @@ fn sizes(report: &Value) -> String {
         ("vertices", text(report, "/pattern/vertex_count")),
         ("triangles", text(report, "/pattern/face_count")),
         ("developable", text(report, "/pattern/developable")),
-        ("flat-foldable", text(report, "/pattern/flat_foldable")),
+        ("locally flat-foldable", text(report, "/pattern/flat_foldable")),
         ("unfolded by", text(report, "/unfold/method")),
         ("engine", text(report, "/engine/name")),
         ("contact gap, h", text(report, "/engine/contact_gap")),
@@ -209,7 +209,7 @@ fn vertices(report: &Value) -> String {
     if rows.is_empty() {
         return String::new();
     }
-    let head = ["type", "creases", "vertices", "M − V", "angles sum to", "flat-foldable"];
+    let head = ["type", "creases", "vertices", "M − V", "angles sum to", "locally flat-foldable"];
     format!(
         "<details>\n<summary>Interior vertices of the crease pattern</summary>\n{}</details>\n",
         table("Interior vertices by type", &head, &rows)

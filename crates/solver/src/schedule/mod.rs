@@ -1,5 +1,7 @@
 //! The schedule: the target fold angle of every hinge along the motion.
 
+use std::collections::BTreeSet;
+
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -179,10 +181,20 @@ impl Schedule {
     /// Each with the index of the step: [`SolverError::StepTime`], [`SolverError::StepDuration`],
     /// [`SolverError::StepRange`] where its numbers do not fit the stage or the sheet, [`SolverError::StepNamesNone`],
     /// [`SolverError::StepsOverlap`]; [`SolverError::Count`] for a sheet with another number of hinges.
-    pub fn with_steps(
+    pub fn with_steps(self, sheet: &Sheet, steps: &[ScheduleStep]) -> Result<Self, SolverError> {
+        self.with_steps_among(sheet, steps, &[])
+    }
+
+    /// As [`Self::with_steps`], where step k only moves creases whose edges are in `among[k]`; a step without a set
+    /// moves all that it names.
+    ///
+    /// # Errors
+    /// Those of [`Self::with_steps`].
+    pub fn with_steps_among(
         mut self,
         sheet: &Sheet,
         steps: &[ScheduleStep],
+        among: &[Option<BTreeSet<u32>>],
     ) -> Result<Self, SolverError> {
         self.check_sheet(sheet)?;
         let edges: Vec<(usize, &Edge)> = hinge_edges(sheet).collect();
@@ -195,7 +207,11 @@ impl Schedule {
             step.check(index, sheet)?;
             let stage = step.stage.index();
             let mut is_idle = true;
-            for (hinge, &(edge, _)) in edges.iter().enumerate().filter(|(_, e)| step.names(e.1)) {
+            let edges_of_step = among.get(index).and_then(Option::as_ref);
+            let is_among =
+                |edge: usize| edges_of_step.is_none_or(|edges| edges.contains(&(edge as u32)));
+            let moves = |(edge, e): &(usize, &Edge)| step.names(e) && is_among(*edge);
+            for (hinge, &(edge, _)) in edges.iter().enumerate().filter(|(_, edge)| moves(edge)) {
                 is_idle = false;
                 if let Some(earlier) = named_by[hinge][stage].replace(index) {
                     return Err(SolverError::StepsOverlap {

@@ -9,6 +9,7 @@ use foldmotion_solver::quasi_static::Jam;
 use super::engine::EngineRun;
 use super::fold_angles::FoldAngleReport;
 use super::jam::JamReport;
+use super::layers::LayerOrderReport;
 use super::outcome::Outcome;
 use super::path::PathReport;
 use super::series::FrameFigures;
@@ -41,6 +42,8 @@ pub struct Folded {
     pub outcome: Outcome,
     pub(crate) jam: Option<JamReport>,
     pub(crate) stop: Option<StopReport>,
+    /// The flat state of a pattern whose motion ended short of it.
+    pub(crate) layer_order: Option<LayerOrderReport>,
     /// How close the creases came to their targets.
     pub(crate) fold_angles: FoldAngleReport,
     /// How well a sheet of units keeps its mirror symmetries.

@@ -9,6 +9,7 @@ pub(crate) mod engine;
 pub(crate) mod fold_angles;
 pub(crate) mod folded;
 pub(crate) mod jam;
+pub(crate) mod layers;
 pub(crate) mod outcome;
 pub(crate) mod path;
 pub(crate) mod preview;
@@ -26,6 +27,7 @@ use self::engine::{EngineRun, StageSummary};
 use self::fold_angles::FoldAngleReport;
 use self::folded::{Findings, Folded};
 use self::jam::JamReport;
+use self::layers::{FoundState, LayerOrderReport, are_flat};
 use self::outcome::{Outcome, OutcomeInput};
 use self::path::PathReport;
 use self::stop::StopCause;
@@ -153,6 +155,7 @@ impl Study {
         });
         Folded {
             compact: self.subject.measured_box(last),
+            layer_order: self.layer_order(&outcome),
             outcome,
             jam,
             stop,
@@ -168,6 +171,14 @@ impl Study {
             engine_seconds: seconds.engine,
             check_seconds: seconds.check,
         }
+    }
+
+    /// What is known of the flat state of a pattern that is to fold flat, if its motion did not reach its end.
+    fn layer_order(&self, outcome: &Outcome) -> Option<LayerOrderReport> {
+        let imported = &self.subject.imported()?.imported;
+        let targets = self.subject.end_angles();
+        let is_asked = !outcome.is_at_end() && are_flat(targets);
+        is_asked.then(|| FoundState::find(imported, targets).report)
     }
 
     /// The times of additional frames: within the intervals that could not be decided and, if every penetration is shallower

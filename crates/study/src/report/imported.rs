@@ -5,6 +5,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::ImportedStudy;
+use crate::resolve::mending::MendingReport;
 
 /// An imported crease pattern.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -29,6 +30,9 @@ pub struct ImportReport {
     pub borders: usize,
     /// V − E + F: 1 for a sheet without holes, one less for each hole or open cut.
     pub euler_characteristic: i64,
+    /// What was done about lines that nearly meet, and which creases were left out.
+    #[serde(default)]
+    pub mending: MendingReport,
     /// What was changed or ignored while the file was read.
     pub warnings: Vec<String>,
 }
@@ -49,6 +53,7 @@ impl ImportReport {
             free_hinges: count(Assignment::Free),
             borders: count(Assignment::Border),
             euler_characteristic: imported.euler_characteristic(),
+            mending: MendingReport::new(&imported.mending),
             warnings: imported.warnings.iter().map(ToString::to_string).collect(),
         }
     }
@@ -69,7 +74,8 @@ impl ImportReport {
             self.borders,
             self.free_hinges
         );
-        for warning in &self.warnings {
+        let mending = self.mending.line();
+        for warning in mending.iter().chain(&self.warnings) {
             lines.push_str("note: ");
             lines.push_str(warning);
             lines.push('\n');

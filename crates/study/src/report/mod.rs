@@ -28,10 +28,13 @@ use self::sheet::{division_report, profile_report, row_reports, unfold_report};
 pub use crate::compute::fold_angles::FoldAngleReport;
 use crate::compute::folded::Folded;
 pub use crate::compute::jam::JamReport;
+pub use crate::compute::layers::{LayerOrderReport, LayerProofName};
 pub use crate::compute::outcome::{Outcome, OutcomeKind};
 pub use crate::compute::path::PathReport;
 pub use crate::compute::stop::{StopCause, StopReport};
 pub use crate::compute::symmetry::{Mirror, SymmetryReport};
+pub use crate::resolve::flat_folding::FlatFoldingFault;
+pub use crate::resolve::mending::{DroppedCreaseReport, MendingReport};
 pub use crate::resolve::names::UnitName;
 
 /// `report.json`. Lengths are in `length_unit`, angles in degrees.
@@ -89,6 +92,10 @@ pub struct Report {
     /// What ended the motion before its end; null if it was computed to its end. A motion that stopped where layers
     /// push on each other has `jam` too.
     pub stop: Option<StopReport>,
+    /// The flat state of an imported pattern, found without a motion, if the pattern is to fold flat and its motion ended
+    /// short of that; null otherwise.
+    #[serde(default)]
+    pub layer_order: Option<LayerOrderReport>,
     /// The verdict of the collision check.
     pub collision: CollisionSection,
     /// The recorded path: the verdict takes straight lines between its frames.
@@ -170,6 +177,7 @@ impl Study {
             symmetry: folded.symmetry.clone(),
             jam: folded.jam.clone(),
             stop: folded.stop,
+            layer_order: folded.layer_order.clone(),
             collision: self.collision_section(&findings.collision),
             path: folded.path,
             engine: EngineReport {

@@ -9,8 +9,12 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::compact::BoxReport;
+use crate::resolve::flat_folding::{FlatFoldingFault, faults};
 use crate::scene::UnfoldChoice;
 use crate::{Study, Unfolding, UnitStudy};
+
+/// The most vertices listed that cannot fold flat.
+const MOST_FAULTS: usize = 20;
 
 /// A row of its own height.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -89,7 +93,8 @@ pub struct DivisionReport {
 pub struct PatternReport {
     /// Whether the angles around every interior vertex sum to 360 degrees.
     pub developable: bool,
-    /// Whether every interior vertex has an even number of creases and alternate angles that sum to 180 degrees.
+    /// Whether every interior vertex can fold flat by itself: an even number of creases, alternate angles that sum to 180
+    /// degrees, mountains and valleys that differ by two. Whether the whole sheet folds flat is another question.
     pub flat_foldable: bool,
     /// The number of vertices of the sheet.
     pub vertex_count: usize,
@@ -99,6 +104,10 @@ pub struct PatternReport {
     pub face_count: usize,
     /// The interior vertices, grouped by type and number of creases.
     pub vertices: Vec<VertexReport>,
+    /// The vertices of an imported pattern that cannot fold flat, the worst first: the first twenty. Empty for a sheet of
+    /// units.
+    #[serde(default)]
+    pub not_flat_foldable: Vec<FlatFoldingFault>,
 }
 
 /// Interior vertices of one type.
@@ -119,7 +128,7 @@ pub struct VertexReport {
     pub alternate_sums_deg: Option<[f64; 2]>,
     /// Whether all vertices of the group are developable.
     pub developable: bool,
-    /// Whether all vertices of the group are flat-foldable.
+    /// Whether all vertices of the group can fold flat by themselves.
     pub flat_foldable: bool,
 }
 
@@ -196,6 +205,10 @@ impl Study {
     pub(super) fn pattern_report(&self) -> PatternReport {
         let check = self.subject.pattern_check();
         let sheet = self.subject.sheet();
+        let imported = self.subject.imported();
+        let faults = imported.map(|study| faults(&study.imported, &study.pattern));
+        let mut faults = faults.unwrap_or_default();
+        faults.truncate(MOST_FAULTS);
         let vertices = check.groups().into_iter().map(|g| VertexReport {
             kind: g.kind.name().to_owned(),
             degree: g.degree,
@@ -213,6 +226,7 @@ impl Study {
             facet_count: sheet.facets.len(),
             face_count: sheet.faces.len(),
             vertices: vertices.collect(),
+            not_flat_foldable: faults,
         }
     }
 }

@@ -16,7 +16,7 @@ impl Report {
         self.write_subject(&mut out);
         let _ = writeln!(
             out,
-            "pattern: {}developable, {}flat-foldable; {} vertices, {} facets",
+            "pattern: {}developable, {}locally flat-foldable; {} vertices, {} facets",
             if self.pattern.developable { "" } else { "not " },
             if self.pattern.flat_foldable { "" } else { "not " },
             self.pattern.vertex_count,
@@ -53,6 +53,10 @@ impl Report {
         );
         if let Some(stop) = &self.stop {
             let _ = writeln!(out, "{}", stop.line());
+        }
+        if let Some(layers) = &self.layer_order {
+            let end = self.path.end_t;
+            let _ = writeln!(out, "{}; the motion got as far as t = {end:.4}", layers.line());
         }
         self.write_verdict(&mut out);
         self.write_path(&mut out);

@@ -57,19 +57,28 @@ fn gap(input: &Input<'_>, subject: &Subject) -> Result<f64, StudyError> {
         }
         (_, Some(thickness)) => ("material.thickness", thickness / height),
         (Some(gap), None) => ("motion.gap", gap),
-        (None, None) => ("motion.gap", default_gap(subject, limit)),
+        (None, None) => return Ok(default_gap(subject, limit)),
     };
-    if gap >= SMALLEST_GAP && gap <= limit {
+    let smallest = smallest_gap(subject, limit);
+    if gap >= smallest && gap <= limit {
         return Ok(gap);
     }
     let scale = if key == "material.thickness" { height } else { 1.0 };
     let message = format!(
         "must be between {} and {:.6}, so that {layers} layers fit next to the thinnest part of the {}",
-        Number(SMALLEST_GAP * scale),
+        Number(smallest * scale),
         Number(limit * scale),
         if subject.units().is_some() { "unit" } else { "pattern" }
     );
     Err(input.error(key, message))
+}
+
+/// The smallest gap that a scene may ask for: in a pattern with a part thinner than that, what fits.
+fn smallest_gap(subject: &Subject, limit: f64) -> f64 {
+    match subject {
+        Subject::Units(_) => SMALLEST_GAP,
+        Subject::Imported(_) => SMALLEST_GAP.min(limit),
+    }
 }
 
 /// What `gap` shrinks to: a thickness does not.
@@ -82,7 +91,7 @@ fn final_gap(input: &Input<'_>, subject: &Subject, gap: f64) -> Result<f64, Stud
         let message = "a sheet with material.thickness keeps it; omit one of the two";
         return Err(input.error("motion.final_gap", message));
     }
-    let smallest = RESOLVED * subject.size();
+    let smallest = (RESOLVED * subject.size()).min(gap);
     if final_gap >= smallest && final_gap <= gap {
         return Ok(final_gap);
     }
@@ -94,11 +103,34 @@ fn final_gap(input: &Input<'_>, subject: &Subject, gap: f64) -> Result<f64, Stud
     Err(input.error("motion.final_gap", message))
 }
 
-/// The default gap: a pattern with small facets takes the largest that fits.
+/// The default gap: a pattern with a thin part takes the largest that fits.
 fn default_gap(subject: &Subject, limit: f64) -> f64 {
     let standard = Contact::default().gap;
     match subject {
         Subject::Units(_) => standard,
         Subject::Imported(_) => standard.min(limit),
     }
+}
+
+/// Says that the default gap was lowered; `None` if it was not.
+pub(super) fn lowered(
+    input: &Input<'_>,
+    subject: &Subject,
+    contact: Option<&Contact>,
+) -> Option<String> {
+    let motion = &input.scene.motion;
+    let gap = contact?.gap;
+    let is_default = motion.gap.is_none() && input.scene.material.thickness.is_none();
+    let standard = Contact::default().gap;
+    if !is_default || gap >= standard {
+        return None;
+    }
+    let (thinnest, layers) = subject.thinnest_part();
+    Some(format!(
+        "motion.gap is {:.2} mean edges instead of {}, so that {layers} layers fit next to the thinnest part of the \
+         pattern, {:.2} wide",
+        Number(gap),
+        Number(standard),
+        Number(thinnest)
+    ))
 }

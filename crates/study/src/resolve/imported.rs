@@ -3,12 +3,15 @@
 use std::path::Path;
 
 use foldmotion_pattern::{
-    Curves, ImportError, ImportOptions, ImportedPattern, LARGEST_IMPORT_FILE, MergeTolerance,
-    PatternCheck, import_fold, import_svg,
+    ImportError, ImportOptions, ImportedPattern, LARGEST_IMPORT_FILE, MergeTolerance, PatternCheck,
+    PatternFileFormat, Pieces, import_pattern,
 };
-use foldmotion_solver::{Schedule, ScheduleStep, Stage};
+use foldmotion_solver::{Schedule, ScheduleStep, SolverError, Stage};
 
+use super::crease_names::named_edges;
+use super::flat_folding::not_flat_foldable;
 use super::input::Input;
+use super::mending::MendingReport;
 use super::motion::{schedule_error, steps};
 use crate::scene::pattern::PatternScene;
 use crate::scene::{CreaseGroup, DivisionScene, ProfileScene, SheetScene};
@@ -39,30 +42,19 @@ impl ImportedStudy {
         self.waypoints.last().map_or(&[], Vec::as_slice)
     }
 
+    /// Lines for the user: what was done about near misses, creases that were left out, vertices that cannot fold flat.
+    pub(crate) fn notes(&self) -> Vec<String> {
+        let mending = MendingReport::new(&self.imported.mending).line();
+        let is_to_fold_flat = self.imported.folds_flat() && self.fold_percent.abs() == 100.0;
+        let faults = is_to_fold_flat.then(|| not_flat_foldable(&self.imported, &self.pattern));
+        mending.into_iter().chain(faults.flatten()).collect()
+    }
+
     /// The motion times at which the stages of the file end, except the last.
     pub(crate) fn waypoint_times(&self) -> Vec<f64> {
         let count = self.waypoints.len();
         let time = |k| Stage::Fold.start_time() + k as f64 / count as f64;
         (1..count).map(time).collect()
-    }
-}
-
-/// A format of crease patterns.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum PatternFileFormat {
-    Fold,
-    Svg,
-}
-
-impl PatternFileFormat {
-    /// The format of a file by its extension, in upper or lower case.
-    pub(crate) fn of(path: &Path) -> Option<Self> {
-        let ending = path.extension()?.to_str()?.to_ascii_lowercase();
-        match ending.as_str() {
-            "fold" => Some(Self::Fold),
-            "svg" => Some(Self::Svg),
-            _ => None,
-        }
     }
 }
 
@@ -77,6 +69,10 @@ pub(crate) fn imported(
         return Err(input.error("pattern.fold_percent", "must be between -100 and 100"));
     }
     let imported = read_pattern(input, scene)?;
+    if !imported.has_creases() {
+        let message = "the pattern has no crease inside its border: draw one (#f00 or #00f in SVG, M or V in FOLD)";
+        return Err(input.error("pattern.file", message));
+    }
     let unit_name = match scene.unit {
         Some(unit) => unit.name(),
         None => imported.unit.name(),
@@ -103,7 +99,22 @@ pub(crate) fn imported_schedule(
     if study.waypoints.len() > 1 {
         schedule = schedule.with_waypoints(sheet, &study.waypoints)?;
     }
-    schedule.with_steps(sheet, &imported_steps(input)?).map_err(|e| schedule_error(input, e))
+    let steps = imported_steps(input)?;
+    let named = input.scene.motion.step.iter().enumerate();
+    let among: Result<Vec<_>, _> =
+        named.map(|(index, step)| named_edges(input, index, step, &study.imported)).collect();
+    schedule.with_steps_among(sheet, &steps, &among?).map_err(|e| schedule_error(input, e))
+}
+
+/// An error of the mechanical model of an imported pattern: edges and triangles that are too small are the pattern's.
+pub(crate) fn model_error(input: &Input<'_>, error: SolverError) -> StudyError {
+    let is_of_pattern = input.scene.pattern.is_some()
+        && matches!(error, SolverError::DegenerateEdge { .. } | SolverError::DegenerateFace { .. });
+    if is_of_pattern {
+        let message = format!("{error}: a larger tolerance merges its ends");
+        return input.error("pattern.vertex_tolerance", message);
+    }
+    StudyError::Solver(error)
 }
 
 /// Refuses keys that do not apply to an imported pattern.
@@ -133,20 +144,16 @@ fn refuse_keys_of_units(input: &Input<'_>) -> Result<(), StudyError> {
 
 fn read_pattern(input: &Input<'_>, scene: &PatternScene) -> Result<ImportedPattern, StudyError> {
     let path = input.source.resolve_path(&scene.file);
-    let Some(format) = PatternFileFormat::of(&path) else {
-        let message = "must be a .fold or .svg file";
-        return Err(input.error("pattern.file", message));
-    };
     let options = ImportOptions {
         merge: scene.vertex_tolerance.map(MergeTolerance::Absolute),
         unknown: scene.unknown.unwrap_or_default(),
-        curves: scene.curve_tolerance.map_or(Curves::Refuse, Curves::Flatten),
+        curve_tolerance: scene.curve_tolerance,
+        curved_facets: scene.curved_facets.unwrap_or_default(),
+        pieces: pieces(scene.piece.as_deref()),
     };
     let bytes = input_file::read(&path, LARGEST_IMPORT_FILE as u64)?;
-    let imported = match format {
-        PatternFileFormat::Fold => import_fold(&bytes, &options),
-        PatternFileFormat::Svg => import_svg(&bytes, &options),
-    };
+    let extension = path.extension().and_then(|ending| ending.to_str());
+    let imported = import_pattern(&bytes, extension, &options);
     imported.map_err(|error| match error {
         ImportError::Tolerance { .. } if scene.vertex_tolerance.is_some() => {
             input.error("pattern.vertex_tolerance", error.to_string())
@@ -154,8 +161,19 @@ fn read_pattern(input: &Input<'_>, scene: &PatternScene) -> Result<ImportedPatte
         ImportError::CurveTolerance { .. } => {
             input.error("pattern.curve_tolerance", error.to_string())
         }
+        ImportError::Piece { .. } => input.error("pattern.piece", error.to_string()),
         error => StudyError::Import { path, error: Box::new(error) },
     })
+}
+
+/// The pieces that the scene asks for.
+fn pieces(name: Option<&str>) -> Pieces {
+    match name {
+        None | Some("main") => Pieces::Main,
+        Some("largest") => Pieces::Largest,
+        Some("all") => Pieces::All,
+        Some(name) => Pieces::Named(name.to_owned()),
+    }
 }
 
 /// The facet that stays in place. Several fixed facets would prevent the sheet from folding.
@@ -233,9 +251,17 @@ fn waypoints(imported: &ImportedPattern, with_stages: bool, fraction: f64) -> Ve
 }
 
 impl SceneSource {
-    /// The scene that only has `[pattern]` with this file; `None` if the file is not a crease pattern by its extension.
+    /// The scene that only has `[pattern]` with this file; `None` if the file is not a crease pattern by its extension
+    /// or, if that is none of a crease pattern, by its content.
     pub(crate) fn for_pattern(path: &Path) -> Option<Self> {
-        PatternFileFormat::of(path)?;
+        let extension = path.extension().and_then(|ending| ending.to_str()).unwrap_or_default();
+        if extension.eq_ignore_ascii_case("toml") {
+            return None;
+        }
+        if PatternFileFormat::of_extension(extension).is_none() {
+            let bytes = input_file::read(path, LARGEST_IMPORT_FILE as u64).ok()?;
+            PatternFileFormat::of_content(&bytes)?;
+        }
         let name = path.file_name()?.to_str()?;
         let mut source = Self::new(path, String::new());
         source.set_by_file("pattern.file", name);

@@ -4,10 +4,13 @@
 
 pub(crate) mod budget;
 mod check;
+mod crease_names;
+pub(crate) mod flat_folding;
 mod gap;
 pub(crate) mod imported;
 pub(crate) mod input;
 mod material;
+pub(crate) mod mending;
 mod motion;
 pub(crate) mod names;
 pub(crate) mod placement;
@@ -84,20 +87,25 @@ impl Study {
         };
         let sheet = subject.sheet();
         let title = input.title(subject.title());
-        let collision = check::collision(&input, &subject)?;
+        let contact = gap::contact(&input, &subject)?;
+        let collision = check::collision(&input, &subject, contact.as_ref())?;
+        let mut notes = notes(&input, &subject);
+        notes.extend(gap::lowered(&input, &subject, contact.as_ref()));
+        notes.extend(check::lowered(&input, &collision));
         Ok(Self {
             title: title.clone(),
             unit_name: unit_name(&input, &subject),
-            model: Model::new(sheet, &material::material(&input, &subject)?)?,
+            model: Model::new(sheet, &material::material(&input, &subject)?)
+                .map_err(|error| imported::model_error(&input, error))?,
             schedule,
             engine: motion::engine(&input),
             device: Device::Cpu,
-            contact: gap::contact(&input, &subject)?,
+            contact,
             thickness: material::material_thickness(&input)?,
             frames: motion::frames(&input)?,
             budget: budget::budget(&input)?,
             collision,
-            notes: notes(&input, &subject),
+            notes,
             recording: recording::recording(&input, title)?,
             subject,
         })
@@ -113,8 +121,9 @@ fn unit_name(input: &Input<'_>, subject: &Subject) -> &'static str {
 
 /// Notes about values of the scene that its case does not use.
 fn notes(input: &Input<'_>, subject: &Subject) -> Vec<String> {
-    let Some(units) = subject.units().map(|study| &study.units) else {
-        return Vec::new();
+    let units = match subject {
+        Subject::Units(study) => &study.units,
+        Subject::Imported(study) => return study.notes(),
     };
     let scene = &input.scene.sheet;
     let is_open = matches!(scene.case, None | Some(CaseChoice::Auto));

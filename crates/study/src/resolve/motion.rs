@@ -24,6 +24,22 @@ pub(crate) fn frames(input: &Input<'_>) -> Result<usize, StudyError> {
         })
 }
 
+/// Refuses steps of a sheet of units that name creases as those of a pattern from a file are named.
+pub(crate) fn refuse_crease_names(input: &Input<'_>) -> Result<(), StudyError> {
+    for (index, step) in input.scene.motion.step.iter().enumerate() {
+        let given = [
+            ("ids", step.ids.is_some()),
+            ("classes", step.classes.is_some()),
+            ("edges", step.edges.is_some()),
+        ];
+        if let Some((key, _)) = given.into_iter().find(|(_, is_given)| *is_given) {
+            let message = "names creases of a pattern from a file; a sheet of units has creases, rows and columns";
+            return Err(input.error(&format!("motion.step.{index}.{key}"), message));
+        }
+    }
+    Ok(())
+}
+
 pub(crate) fn steps(input: &Input<'_>) -> Result<Vec<ScheduleStep>, StudyError> {
     let step = |(index, step): (usize, &StepScene)| {
         let range = |key: &str, range: &Option<Vec<i64>>| match range.as_deref() {

@@ -8,7 +8,7 @@ use foldmotion_pattern::{
 use foldmotion_solver::{CreaseGroup, Ease, ScheduleStep, Stage};
 
 use super::input::Input;
-use super::motion::steps;
+use super::motion::{refuse_crease_names, steps};
 use super::profile::{EQUAL_ROWS, curve, division};
 use super::unit::{Purpose, pattern_error, require_moderate, unit, unit_width};
 use crate::scene::{CaseChoice, UnequalChoice};
@@ -104,6 +104,7 @@ pub(crate) fn steps_of(
     input: &Input<'_>,
     units: &UnitSheet,
 ) -> Result<Vec<ScheduleStep>, StudyError> {
+    refuse_crease_names(input)?;
     let steps = steps(input)?;
     let is_timed = steps.iter().any(|step| step.stage == Stage::Fold);
     let is_map = units.folding == Folding::Map;

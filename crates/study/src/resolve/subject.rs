@@ -106,7 +106,7 @@ impl Subject {
     pub(crate) fn preserved_keys(&self) -> Map<String, Value> {
         match self {
             Self::Units(_) => Map::new(),
-            Self::Imported(study) => study.imported.keys_of_triangles(),
+            Self::Imported(study) => study.imported.keys_of_motion(&study.waypoints),
         }
     }
 

@@ -123,6 +123,12 @@ pub enum LengthUnit {
 }
 
 impl LengthUnit {
+    /// The unit of this name.
+    pub(crate) fn named(name: &str) -> Option<Self> {
+        let all = [Self::Unit, Self::In, Self::Pt, Self::M, Self::Cm, Self::Mm, Self::Um, Self::Nm];
+        all.into_iter().find(|unit| unit.name() == name)
+    }
+
     /// The name in scene and FOLD files.
     pub fn name(self) -> &'static str {
         match self {
@@ -299,7 +305,7 @@ pub struct MotionScene {
     #[schemars(extend("x-default" = "true with the quasi-static engine"))]
     pub contact: Option<bool>,
     /// The closest approach of layers. It has to fit next to the thinnest part of the sheet.
-    #[schemars(extend("x-default" = "1e-3, or less if a pattern has small facets", "x-unit" = "h, or the mean edge of a pattern", "minimum" = 1e-06))]
+    #[schemars(extend("x-default" = "1e-3, or what fits next to the thinnest part of a pattern", "x-unit" = "h, or the mean edge of a pattern", "minimum" = 1e-06))]
     pub gap: Option<f64>,
     /// What the gap shrinks to in the last tenth of stage fold, so that the compact box meets the closed form. The same
     /// as motion.gap keeps the gap. Where contact keeps creases from their targets the gap does not shrink.
@@ -352,6 +358,18 @@ pub struct StepScene {
     #[serde(default, deserialize_with = "choice::optional")]
     #[schemars(extend("default" = "all"))]
     pub creases: Option<CreaseGroup>,
+    /// The ids of the creases that move, of a pattern from a file: those of elements of an SVG or of groups around them,
+    /// of objects and groups of an OBJ, or handles of a DXF.
+    #[schemars(extend("x-default" = "every id"))]
+    pub ids: Option<Vec<String>>,
+    /// The classes of the creases that move, of a pattern from a file: those of elements of an SVG or of groups around
+    /// them, layers of a DXF, or materials of an OBJ.
+    #[schemars(extend("x-default" = "every class"))]
+    pub classes: Option<Vec<String>>,
+    /// The edges that move, of a pattern from a file, counted from 0: as a FOLD file lists them; in other formats as
+    /// `pattern.fold` and `motion.fold` list them.
+    #[schemars(extend("x-default" = "every edge"))]
+    pub edges: Option<Vec<i64>>,
     /// The first and the last row that move, both included and counted from 0, or a single one.
     #[schemars(extend("x-default" = "every row"))]
     pub rows: Option<Vec<i64>>,
@@ -394,7 +412,8 @@ impl EngineChoice {
 #[derive(Debug, Clone, Default, PartialEq, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct CheckScene {
-    /// The tolerance τ of the verdict: facets that overlap by no more than this touch.
+    /// The tolerance τ of the verdict: facets that overlap by no more than this touch. In a pattern whose thin parts lower
+    /// the default of motion.gap below 1e-5, the default is a tenth of that gap.
     #[schemars(extend("default" = 1e-6, "x-unit" = "h, or the mean edge of a pattern", "minimum" = 0, "maximum" = 0.01))]
     pub touch_tolerance: Option<f64>,
     /// If more pairs of triangles than this penetrate, later frames are not checked; 0 means no limit.

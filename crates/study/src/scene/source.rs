@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use foldmotion_geometry::Number;
+use foldmotion_pattern::ImportError;
 use toml::de::{DeTable, DeValue};
 use toml::{Spanned, Table, Value};
 
@@ -31,15 +32,26 @@ struct Override {
 }
 
 impl SceneSource {
-    /// Reads a scene file. For a crease pattern (.fold, .svg), the scene has only `[pattern]` with this file.
+    /// Reads a scene file. For a crease pattern, by its extension or its content, the scene has only `[pattern]` with this
+    /// file.
     ///
     /// # Errors
-    /// [`StudyError::Read`], and [`StudyError::LargeFile`] above 16 MiB.
+    /// [`StudyError::Read`], [`StudyError::LargeFile`] above 16 MiB, and [`StudyError::Unrecognised`] for a file with
+    /// another extension than .toml that is neither TOML nor a crease pattern.
     pub fn read(path: &Path) -> Result<Self, StudyError> {
         if let Some(pattern) = Self::for_pattern(path) {
             return Ok(pattern);
         }
-        let text = input_file::read_text(path, LARGEST_SCENE)?;
+        let may_be_scene =
+            path.extension().is_none_or(|ending| ending.eq_ignore_ascii_case("toml"));
+        let text = match input_file::read_text(path, LARGEST_SCENE) {
+            Ok(text) if may_be_scene || text.parse::<Table>().is_ok() => text,
+            Err(error) if may_be_scene || !input_file::is_not_text(&error) => return Err(error),
+            _ => {
+                let error = Box::new(ImportError::Format);
+                return Err(StudyError::Unrecognised { path: path.to_owned(), error });
+            }
+        };
         Ok(Self::new(path, text))
     }
 

@@ -50,9 +50,13 @@ impl Counts {
             format!("{} vertices, {} facets, {} creases", self.vertices, self.facets, self.creases);
         let tip = "Vertices, facets, and mountain and valley creases of the pattern";
         value_row(ui, "sheet", &text, tip);
-        let foldable = if self.is_flat_foldable { "flat-foldable" } else { "not flat-foldable" };
+        let foldable = if self.is_flat_foldable {
+            "locally flat-foldable"
+        } else {
+            "not locally flat-foldable"
+        };
         let developable = if self.is_developable { "developable" } else { "not developable" };
-        let tip = "Developable: the sector angles at each vertex sum to 2π. Flat-foldable: alternate angles sum to π, and the \
+        let tip = "Developable: the sector angles at each vertex sum to 2π. Locally flat-foldable: alternate angles sum to π, and the \
              numbers of mountains and valleys differ by two (section 2).";
         value_row(ui, "vertices", &format!("{developable}, {foldable}"), tip);
     }

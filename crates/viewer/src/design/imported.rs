@@ -64,13 +64,20 @@ fn show_fold(form: &mut Form<'_>, ui: &mut Ui) {
 /// The keys that say how the file is read.
 fn show_reading(form: &mut Form<'_>, ui: &mut Ui) {
     let field = Field::new("pattern.unknown", "unknown lines");
-    form.menu(ui, &field, "refuse", |scene| &mut of(scene).unknown);
+    form.menu(ui, &field, "auxiliary", |scene| &mut of(scene).unknown);
     let field = Field::new("pattern.vertex_tolerance", "merge within");
     let number = Number::within(0.0..=1e3).hint("from diagonal").speed(1e-3);
     form.number(ui, &field, &number, |scene| &mut of(scene).vertex_tolerance);
     let field = Field::new("pattern.curve_tolerance", "flatten curves");
-    let number = Number::within(1e-6..=0.1).hint("refuse").speed(1e-5);
+    let number = Number::within(1e-6..=0.1).default(1e-3).speed(1e-5);
     form.number(ui, &field, &number, |scene| &mut of(scene).curve_tolerance);
+    let field = Field::new("pattern.curved_facets", "curved facets");
+    form.menu(ui, &field, "rulings", |scene| &mut of(scene).curved_facets);
+    let field = Field::new("pattern.piece", "pieces");
+    let piece = of(&mut form.scene).piece.clone().unwrap_or_default();
+    if let Some(piece) = form.text(ui, &field, "main", &piece) {
+        of(&mut form.scene).piece = Some(piece).filter(|piece| !piece.is_empty());
+    }
 }
 
 fn show_facts(study: &ImportedStudy, measurements: &Measurements, ui: &mut Ui) {

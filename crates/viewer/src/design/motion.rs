@@ -80,6 +80,9 @@ fn show_steps(form: &mut Form<'_>, ui: &mut Ui) {
             form.scene.motion.step.push(StepScene {
                 stage: Stage::Fold,
                 creases: None,
+                ids: None,
+                classes: None,
+                edges: None,
                 rows: None,
                 columns: None,
                 from: None,

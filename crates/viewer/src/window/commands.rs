@@ -15,7 +15,7 @@ use crate::timeline::Repeat;
 use crate::work::{Interaction, open, run};
 
 /// Extensions of files that can be opened.
-const OPENED: [&str; 3] = ["toml", "fold", "svg"];
+const OPENED: [&str; 10] = ["toml", "fold", "svg", "cp", "opx", "orh", "obj", "dxf", "json", "txt"];
 
 /// Extensions of outline files for profiles.
 const OUTLINES: [&str; 3] = ["csv", "dat", "dxf"];

@@ -9,6 +9,9 @@ use super::FoldPattern;
 use super::frames::Frames;
 use super::sides::Sides;
 
+/// Angles up to this are those of a flat facet after rounding, degrees.
+const ROUNDING_DEGREES: f64 = 1e-6;
+
 /// The role of an edge and its target angle.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct EdgeMeaning {
@@ -16,6 +19,8 @@ pub(super) struct EdgeMeaning {
     /// Radians; 0 unless it is a crease.
     pub(super) target: f64,
     pub(super) warning: Option<WarningKind>,
+    /// Whether the file gives the angle itself.
+    pub(super) has_angle: bool,
 }
 
 /// The meaning of every edge of a frame.
@@ -32,14 +37,18 @@ pub(super) fn meanings(
     let staged = staged_signs(frames, frame, edges);
     (0..edges)
         .map(|edge| {
-            let letter = letters.map(|l| l[edge].as_str());
+            let upper = letters.map(|l| l[edge].to_ascii_uppercase());
+            let letter = upper.as_deref();
             let angle = match (angles, letter) {
                 (Some(angles), _) => angles[edge],
                 (None, Some("M")) => Some(-180.0),
                 (None, Some("V")) => Some(180.0),
                 (None, _) => None,
             };
-            meaning(letter, angle, staged[edge]).ok_or_else(|| ImportError::Assignment {
+            let is_given = angles.is_some_and(|angles| angles[edge].is_some());
+            let meaning = meaning(letter, angle, staged[edge]);
+            let meaning = meaning.map(|meaning| EdgeMeaning { has_angle: is_given, ..meaning });
+            meaning.ok_or_else(|| ImportError::Assignment {
                 edge,
                 found: letter.unwrap_or("").chars().take(40).collect(),
             })
@@ -50,11 +59,12 @@ pub(super) fn meanings(
 /// The sign of the first angle that a stage gives each edge; 0 if none drives it.
 fn staged_signs(frames: &Frames, pattern: usize, edges: usize) -> Vec<f64> {
     let mut signs = vec![0.0; edges];
-    for (_, frame) in frames.with_angles(pattern) {
+    for (_, frame) in frames.stages(pattern) {
         let angles = frame.angles.iter().flatten();
         for (sign, angle) in signs.iter_mut().zip(angles) {
             if *sign == 0.0 {
-                *sign = angle.filter(|a| *a != 0.0).map_or(0.0, f64::signum);
+                let bent = angle.filter(|a| a.abs() > ROUNDING_DEGREES);
+                *sign = bent.map_or(0.0, f64::signum);
             }
         }
     }
@@ -63,18 +73,19 @@ fn staged_signs(frames: &Frames, pattern: usize, edges: usize) -> Vec<f64> {
 
 /// The meaning of a letter and an angle in degrees; `None` for a letter that FOLD does not have.
 fn meaning(letter: Option<&str>, angle: Option<f64>, staged: f64) -> Option<EdgeMeaning> {
-    let plain = |role, warning| EdgeMeaning { role, target: 0.0, warning };
+    let plain = |role, warning| EdgeMeaning { role, target: 0.0, warning, has_angle: false };
     let crease = |sign: f64, degrees: f64, warning| EdgeMeaning {
         role: if sign < 0.0 { Role::Mountain } else { Role::Valley },
         target: degrees * (PI / 180.0),
         warning,
+        has_angle: false,
     };
     let drawn = match letter {
         Some("M") => -1.0,
         Some("V") => 1.0,
         _ => 0.0,
     };
-    let bent = angle.filter(|a| *a != 0.0);
+    let bent = angle.filter(|a| a.abs() > ROUNDING_DEGREES);
     Some(match (letter, bent) {
         (Some("B"), _) => plain(Role::Border, None),
         (Some("C"), _) => plain(Role::Cut, None),
@@ -102,7 +113,8 @@ pub(super) fn lines(
 ) -> Vec<Line> {
     let edges = pattern.edges.iter().zip(&pattern.meanings);
     let line = |((&ends, meaning), source): ((&[u32; 2], &EdgeMeaning), u32)| {
-        let mut line = Line { ends, role: meaning.role, target: meaning.target, source };
+        let mut line =
+            Line { ends, role: meaning.role, target: meaning.target, source, is_curved: false };
         let is_outer = sides.get(&line.key()).is_some_and(|faces| faces.len() == 1);
         match meaning.warning {
             // Only its position says what it is.

@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use glam::DVec2;
 
 use super::super::drawing::{Line, Role};
+use super::super::mending::Mending;
 use super::super::plan::Plan;
 use super::super::warning::{WarningKind, Warnings};
 use super::super::{ImportError, Source};
@@ -40,10 +41,13 @@ pub(super) fn plan(
     let mut sources: Vec<Source> = (0..edges).map(Source::FoldEdge).collect();
     let mut lines: Vec<Line> = Vec::with_capacity(sides.len());
     let mut of_ends: BTreeMap<[u32; 2], Line> = BTreeMap::new();
+    let mut mending = Mending::default();
     for line in super::edges::lines(pattern, &sides, warnings) {
+        mending.draw(&line, &points);
         let source = &sources[line.source as usize];
         if !sides.contains_key(&line.key()) {
             warnings.add(WarningKind::NoFace, source);
+            mending.drop(&line, &points, &sources);
             continue;
         }
         match of_ends.get(&line.key()) {
@@ -68,11 +72,13 @@ pub(super) fn plan(
             role: if faces.len() > 1 { unlisted } else { Role::Border },
             target: 0.0,
             source: sources.len() as u32,
+            is_curved: false,
         });
         sources.push(source);
     }
     let origins = (0..points.len() as u32).map(Some).collect();
-    Ok(Plan { points, origins, lines, facets, sources })
+    let (has_rulings, are_listed) = (false, true);
+    Ok(Plan { points, origins, lines, facets, sources, mending, has_rulings, are_listed })
 }
 
 fn twice_area(face: &[u32], points: &[DVec2]) -> f64 {

@@ -15,27 +15,18 @@ const FLATNESS: f64 = 1e-6;
 /// faces, or without faces the side from which z (else y, else x) grows, faces up, and x stays along x where it can.
 pub(super) fn in_plane(pattern: &FoldPattern<'_>) -> Result<Vec<DVec2>, ImportError> {
     let points = pattern.coordinates;
-    let (low, high) = points
-        .iter()
-        .fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), p| (low.min(*p), high.max(*p)));
-    let flat_bounds = |a: DVec3| DVec2::new(a.truncate().length(), a.z);
-    let size = check_extent(flat_bounds(DVec3::ZERO), flat_bounds(high - low))?;
+    let size = size(pattern)?;
+    let (low, high) = bounds(pattern);
     let Some(normal) = normal(pattern, size) else {
         // Without area; that is found where facets are cut.
         return Ok(points.iter().map(|p| p.truncate()).collect());
     };
     let origin = if low.z == high.z { DVec3::new(0.0, 0.0, low.z) } else { points[0] };
-    let used = || {
-        let corners = pattern.faces.iter().flatten();
-        let ends = pattern.edges.iter().flatten();
-        let is_traced = pattern.faces.is_empty();
-        corners.chain(ends.filter(move |_| is_traced))
-    };
-    let origin = used()
+    let origin = used(pattern)
         .next()
         .map_or(origin, |&v| if low.z == high.z { origin } else { points[v as usize] });
     let height = |&v: &u32| (v, (points[v as usize] - origin).dot(normal).abs());
-    let highest = used().map(height).max_by(|a, b| a.1.total_cmp(&b.1));
+    let highest = used(pattern).map(height).max_by(|a, b| a.1.total_cmp(&b.1));
     if let Some((vertex, height)) = highest.filter(|(_, h)| *h > FLATNESS * size) {
         return Err(ImportError::NotFlat {
             frame: FrameNumber(pattern.frame),
@@ -57,10 +48,36 @@ pub(super) fn in_plane(pattern: &FoldPattern<'_>) -> Result<Vec<DVec2>, ImportEr
     Ok(points.iter().map(|p| DVec2::new(p.dot(x), p.dot(y))).collect())
 }
 
+/// The vertices of faces and edges.
+pub(super) fn used<'a>(pattern: &'a FoldPattern<'_>) -> impl Iterator<Item = &'a u32> {
+    pattern.faces.iter().flatten().chain(pattern.edges.iter().flatten())
+}
+
+/// The lower and the upper corner of the vertices used.
+fn bounds(pattern: &FoldPattern<'_>) -> (DVec3, DVec3) {
+    let used = used(pattern).map(|&v| pattern.coordinates[v as usize]);
+    let none = (DVec3::INFINITY, DVec3::NEG_INFINITY);
+    used.fold(none, |(low, high), p| (low.min(p), high.max(p)))
+}
+
+/// The extent of the vertices used.
+///
+/// # Errors
+/// [`ImportError::Empty`], [`ImportError::Extent`].
+pub(super) fn size(pattern: &FoldPattern<'_>) -> Result<f64, ImportError> {
+    let (low, high) = bounds(pattern);
+    if !low.is_finite() {
+        return Err(ImportError::Empty);
+    }
+    let flat_bounds = |a: DVec3| DVec2::new(a.truncate().length(), a.z);
+    check_extent(flat_bounds(DVec3::ZERO), flat_bounds(high - low))
+}
+
 /// The unit normal of the pattern; `None` if it has no area.
 fn normal(pattern: &FoldPattern<'_>, size: f64) -> Option<DVec3> {
     let points = pattern.coordinates;
-    let is_level = points.iter().all(|p| p.z == points[0].z);
+    let (low, high) = bounds(pattern);
+    let is_level = low.z == high.z;
     let area = |face: &Vec<u32>| {
         let first = points[*face.first()? as usize];
         let corner = |v: &u32| points[*v as usize] - first;

@@ -4,6 +4,7 @@ use glam::DVec3;
 use serde_json::{Map, Value};
 
 use super::super::ImportError;
+use super::super::warning::WarningKind;
 use crate::fold::{FrameFields, FrameVisitor, Selection, read_frames};
 use crate::{FoldError, FrameNumber};
 
@@ -109,16 +110,57 @@ impl Frames {
         &self.list[0].other
     }
 
+    /// The orders of faces in the flat state: those of `pattern` itself, or of the first frame in the plane z = 0 that has
+    /// some and inherits its faces.
+    pub(super) fn face_orders(&self, pattern: usize) -> &[(u32, u32, i8)] {
+        let is_flat = |frame: usize| {
+            let coordinates = self.coordinates(frame).unwrap_or_default();
+            self.list[frame].faces.is_none() && coordinates.iter().all(|p| p.z == 0.0)
+        };
+        let mut flat = (1..self.list.len()).filter(|&frame| is_flat(frame));
+        let mut own = |frame: usize| Some(frame).filter(|&f| !self.list[f].orders.is_empty());
+        let found = own(pattern).or_else(|| flat.find_map(&mut own));
+        found.map_or(&[], |frame| self.list[frame].orders.as_slice())
+    }
+
     pub(super) fn take_title(&mut self) -> Option<String> {
         self.list[0].title.take()
     }
 
-    /// The frames besides `pattern` with fold angles of their own.
-    pub(super) fn with_angles(
-        &self,
-        pattern: usize,
-    ) -> impl Iterator<Item = (usize, &FrameFields)> {
+    /// Whether a frame is the shape of a folded sheet.
+    pub(super) fn is_folded(&self, frame: usize) -> bool {
+        self.list[frame].classes.iter().any(|class| class == "foldedForm")
+    }
+
+    /// The stages of a motion: frames besides `pattern` with fold angles of their own.
+    pub(super) fn stages(&self, pattern: usize) -> impl Iterator<Item = (usize, &FrameFields)> {
+        let frames = self.with_angles(pattern);
+        frames.filter(|(_, frame)| self.reason_against(frame).is_none())
+    }
+
+    /// The frames besides `pattern` that have fold angles of their own and are no stages, each with the reason.
+    pub(super) fn not_stages(&self, pattern: usize) -> impl Iterator<Item = (usize, WarningKind)> {
+        let frames = self.with_angles(pattern);
+        frames.filter_map(|(number, frame)| Some((number, self.reason_against(frame)?)))
+    }
+
+    fn with_angles(&self, pattern: usize) -> impl Iterator<Item = (usize, &FrameFields)> {
         let frames = self.list.iter().enumerate();
         frames.filter(move |(number, f)| *number > 0 && *number != pattern && f.angles.is_some())
+    }
+
+    /// Why a frame is no stage: patterns and models are alternatives, and frames with a motion time are states of a
+    /// motion towards the angles of the key frame.
+    fn reason_against(&self, frame: &FrameFields) -> Option<WarningKind> {
+        let of_file = self.list[0].other.get("file_classes");
+        let is_multi_model = match of_file {
+            Some(Value::String(class)) => class == "multiModel",
+            Some(Value::Array(classes)) => classes.iter().any(|class| class == "multiModel"),
+            _ => false,
+        };
+        if is_multi_model || frame.classes.iter().any(|class| class == "creasePattern") {
+            return Some(WarningKind::Alternative);
+        }
+        frame.time.is_some().then_some(WarningKind::Recorded)
     }
 }

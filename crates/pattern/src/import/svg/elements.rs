@@ -1,23 +1,31 @@
 //! The elements of an SVG, read from the outermost inwards.
 
+use std::collections::BTreeMap;
 use std::str::FromStr as _;
 
-use glam::DAffine2;
-use roxmltree::Node;
+use glam::{DAffine2, DVec2};
+use roxmltree::{Node, NodeId};
 use svgtypes::Transform;
 
+use super::super::colour::Meaning;
+use super::super::drawing::Role;
+use super::super::names::Names;
+use super::super::stroke::{Piece, Stroke};
+use super::super::unread::UnreadElements;
 use super::super::warning::{WarningKind, Warnings};
-use super::super::{Curves, ImportError, ImportOptions, MOST_NESTED};
-use super::shape::{Outline, Piece, Stroke, outline};
-use super::stroke::{meaning, opacity, target};
+use super::super::{ImportError, MOST_NESTED, MOST_NODES, Source, UnknownElements};
+use super::shape::{is_closed, outline};
+use super::stroke::{opacity, stroke_meaning, target};
 use super::style::{Properties, Styles};
-use super::values::wrong;
-use super::{LineNumbers, UnreadElement, viewport};
+use super::values::{length, wrong};
+use super::{LineNumbers, viewport};
 
 /// The properties that an element inherits from those around it.
 #[derive(Debug, Clone, Copy)]
 struct Inherited<'a> {
     transform: DAffine2,
+    color: &'a str,
+    fill: &'a str,
     stroke: Option<&'a str>,
     stroke_opacity: f64,
     /// The product of the opacities of the element and of all around it.
@@ -29,31 +37,60 @@ struct Inherited<'a> {
 pub(super) struct ElementReader<'a, 'b> {
     numbering: &'b LineNumbers,
     styles: Styles<'a>,
-    flattens: bool,
+    by_id: BTreeMap<&'a str, Node<'a, 'a>>,
+    unknown: UnknownElements,
     warnings: &'b mut Warnings,
     strokes: Vec<Stroke>,
-    unread: UnreadElement,
+    /// Closed outlines that are filled but have no stroke.
+    filled: Vec<Stroke>,
+    unread: UnreadElements,
+    /// The names of the element being read and of those around it.
+    names: Names,
+    /// The elements that `use` elements around this one draw.
+    used: Vec<NodeId>,
+    /// The number of elements read, each as often as it is drawn.
+    drawn: usize,
 }
 
 impl<'a, 'b> ElementReader<'a, 'b> {
     pub(super) fn new(
         root: Node<'a, 'a>,
         numbering: &'b LineNumbers,
-        options: &ImportOptions,
+        unknown: UnknownElements,
         warnings: &'b mut Warnings,
     ) -> Result<Self, ImportError> {
+        let mut by_id = BTreeMap::new();
+        for node in root.descendants() {
+            if let Some(id) = node.attribute("id") {
+                by_id.entry(id).or_insert(node);
+            }
+        }
         Ok(Self {
             numbering,
             styles: Styles::read(root, numbering, warnings)?,
-            flattens: matches!(options.curves, Curves::Flatten(_)),
+            by_id,
+            unknown,
             warnings,
             strokes: Vec::new(),
-            unread: UnreadElement::default(),
+            filled: Vec::new(),
+            unread: UnreadElements::default(),
+            names: Names::default(),
+            used: Vec::new(),
+            drawn: 0,
         })
     }
 
-    /// The lines drawn so far, and the elements that cannot be read.
-    pub(super) fn finish(self) -> (Vec<Stroke>, UnreadElement) {
+    /// The lines drawn so far, and the elements that cannot be read. If no line is border, filled outlines are.
+    pub(super) fn finish(mut self) -> (Vec<Stroke>, UnreadElements) {
+        let has_border = self.strokes.iter().any(|stroke| stroke.role == Role::Border);
+        for outline in self.filled {
+            if has_border {
+                self.warnings.add(WarningKind::NotDrawn, &outline.source);
+            } else {
+                self.warnings.add(WarningKind::FilledBorder, &outline.source);
+                self.strokes.push(outline);
+            }
+        }
         (self.strokes, self.unread)
     }
 
@@ -65,6 +102,8 @@ impl<'a, 'b> ElementReader<'a, 'b> {
     ) -> Result<(), ImportError> {
         let around = Inherited {
             transform,
+            color: "black",
+            fill: "black",
             stroke: None,
             stroke_opacity: 1.0,
             opacity: 1.0,
@@ -79,15 +118,31 @@ impl<'a, 'b> ElementReader<'a, 'b> {
         around: Inherited<'a>,
         depth: usize,
     ) -> Result<(), ImportError> {
-        if depth > MOST_NESTED {
-            return Err(ImportError::TooMany {
-                what: "elements in each other",
-                found: depth,
-                limit: MOST_NESTED,
-            });
+        check("elements in each other", depth, MOST_NESTED)?;
+        self.drawn += 1;
+        check("elements drawn, also by <use>", self.drawn, MOST_NODES as usize)?;
+        let outer = [self.names.ids.len(), self.names.classes.len()];
+        if let Some(id) = node.attribute("id") {
+            self.names.add_id(id);
         }
+        for class in node.attribute("class").unwrap_or_default().split_whitespace() {
+            self.names.add_class(class);
+        }
+        let visited = self.visit_named(node, around, depth);
+        self.names.ids.truncate(outer[0]);
+        self.names.classes.truncate(outer[1]);
+        visited
+    }
+
+    fn visit_named(
+        &mut self,
+        node: Node<'a, 'a>,
+        around: Inherited<'a>,
+        depth: usize,
+    ) -> Result<(), ImportError> {
         let name = node.tag_name().name();
-        if !is_drawn_container(name) && !is_shape(name) {
+        let is_container = is_drawn_container(name) || is_used_symbol(node, &self.used);
+        if !is_container && !is_shape(name) && name != "use" {
             if matches!(name, "text" | "image" | "foreignObject") {
                 self.warnings.add(WarningKind::Ignored, &self.numbering.source(node));
             }
@@ -97,10 +152,13 @@ impl<'a, 'b> ElementReader<'a, 'b> {
         let mut own = self.inherit(node, around, &properties)?;
         if properties.display == Some("none") {
             own.is_visible = false;
-            if is_drawn_container(name) {
+            if !is_shape(name) {
                 self.warnings.add(WarningKind::NotDrawn, &self.numbering.source(node));
                 return Ok(());
             }
+        }
+        if name == "use" {
+            return self.reuse(node, own, depth);
         }
         if is_shape(name) {
             return self.shape(node, own);
@@ -112,6 +170,39 @@ impl<'a, 'b> ElementReader<'a, 'b> {
             self.visit(child, own, depth + 1)?;
         }
         Ok(())
+    }
+
+    /// Draws the element that a `use` names, shifted by its `x` and `y`.
+    fn reuse(
+        &mut self,
+        node: Node<'a, 'a>,
+        mut own: Inherited<'a>,
+        depth: usize,
+    ) -> Result<(), ImportError> {
+        let named = node.attributes().find(|attribute| attribute.name() == "href");
+        let href = named.map(|attribute| attribute.value().trim()).unwrap_or_default();
+        let target = href.strip_prefix('#').and_then(|id| self.by_id.get(id)).copied();
+        let Some(target) = target else {
+            let shown: String = href.chars().take(40).collect();
+            let reason = format!("<use> names {shown:?}, which is no element of the file");
+            self.unread.add(self.numbering.source(node), reason);
+            return Ok(());
+        };
+        if self.used.contains(&target.id()) || node.ancestors().any(|around| around == target) {
+            let need = "an element must not use itself";
+            return Err(wrong(node, self.numbering, "href", href, need));
+        }
+        if target.tag_name().name() == "symbol" && target.has_attribute("viewBox") {
+            let reason = "a <symbol> with a viewBox is not read".to_owned();
+            self.unread.add(self.numbering.source(node), reason);
+            return Ok(());
+        }
+        let at = DVec2::new(length(node, self.numbering, "x")?, length(node, self.numbering, "y")?);
+        own.transform *= DAffine2::from_translation(at);
+        self.used.push(target.id());
+        let drawn = self.visit(target, own, depth + 1);
+        self.used.pop();
+        drawn
     }
 
     fn inherit(
@@ -127,7 +218,10 @@ impl<'a, 'b> ElementReader<'a, 'b> {
                 wrong(node, self.numbering, name, text, "a finite number is needed")
             }),
         };
-        if let Some(stroke) = properties.stroke.filter(|s| *s != "inherit") {
+        let given = |text: Option<&'a str>| text.filter(|t| *t != "inherit");
+        own.color = given(properties.color).unwrap_or(own.color);
+        own.fill = given(properties.fill).unwrap_or(own.fill);
+        if let Some(stroke) = given(properties.stroke) {
             own.stroke = Some(stroke);
         }
         if let Some(opacity) = parsed("stroke-opacity", properties.stroke_opacity)? {
@@ -155,55 +249,95 @@ impl<'a, 'b> ElementReader<'a, 'b> {
         let source = self.numbering.source(node);
         let stroke = own.stroke.filter(|s| *s != "none" && *s != "transparent");
         let Some(stroke) = stroke.filter(|_| own.is_visible) else {
-            self.warnings.add(WarningKind::NotDrawn, &source);
+            self.unstroked(node, own, source);
             return Ok(());
         };
-        let pieces = match outline(node, self.numbering)? {
-            Outline::Pieces(pieces) => pieces,
-            Outline::UnreadElement(reason) => {
-                self.unread.add(source, reason);
-                return Ok(());
-            }
-            Outline::None => return Ok(()),
-        };
-        let Ok((role, alpha)) = meaning(stroke) else {
-            let shown: String = stroke.chars().take(40).collect();
-            self.unread.add(source, format!("the stroke {shown:?} is unknown"));
+        let pieces = self.placed(node, own.transform)?;
+        let is_current = stroke.eq_ignore_ascii_case("currentcolor");
+        let stroke = if is_current { own.color } else { stroke };
+        let Some((role, alpha)) = self.role(stroke, &source) else {
             return Ok(());
         };
-        let has_curves = pieces.iter().any(|p| matches!(p, Piece::Curve(_)));
-        if has_curves && !self.flattens {
-            let reason =
-                "curves (C, S, Q, T) of paths are not read unless they are to be flattened";
-            self.unread.add(source, reason.to_owned());
-            return Ok(());
-        }
         if pieces.is_empty() {
             self.warnings.add(WarningKind::NotDrawn, &source);
             return Ok(());
         }
-        let pieces = pieces.into_iter();
-        let pieces: Vec<Piece> = pieces.map(|p| p.transformed(&own.transform)).collect();
-        let is_finite = pieces.iter().flat_map(Piece::points).all(|p| p.is_finite());
-        if !is_finite {
-            let text = node.ancestors().find_map(|n| n.attribute("transform"));
-            let need = "the element must stay within the numbers there are";
-            return Err(wrong(node, self.numbering, "transform", text.unwrap_or_default(), need));
-        }
         self.strokes.push(Stroke {
             source,
+            names: self.names.clone(),
             role,
             target: target(role, own.opacity * own.stroke_opacity * alpha),
             pieces,
         });
         Ok(())
     }
+
+    /// The outline of an element where it is drawn.
+    fn placed(&self, node: Node<'a, 'a>, transform: DAffine2) -> Result<Vec<Piece>, ImportError> {
+        let pieces = outline(node, self.numbering)?.into_iter();
+        let pieces: Vec<Piece> = pieces.map(|p| p.transformed(&transform)).collect();
+        if pieces.iter().flat_map(Piece::points).all(|p| p.is_finite()) {
+            return Ok(pieces);
+        }
+        let text = node.ancestors().find_map(|n| n.attribute("transform"));
+        let need = "the element must stay within the numbers there are";
+        Err(wrong(node, self.numbering, "transform", text.unwrap_or_default(), need))
+    }
+
+    /// The role of a stroke and the alpha of its colour; `None` if it is left out.
+    fn role(&mut self, stroke: &str, source: &Source) -> Option<(Role, f64)> {
+        let shown: String = stroke.chars().take(40).collect();
+        match stroke_meaning(stroke) {
+            Some((Meaning::Exact(role), alpha)) => Some((role, alpha)),
+            Some((Meaning::Near(role), alpha)) => {
+                let read = format!("{shown} as {}", role.name());
+                self.warnings.add_as(WarningKind::NearColour, source, read);
+                Some((role, alpha))
+            }
+            Some((Meaning::Auxiliary, _)) if self.unknown != UnknownElements::Refuse => {
+                self.warnings.add_as(WarningKind::Auxiliary, source, shown);
+                None
+            }
+            Some((Meaning::Auxiliary, _)) | None => {
+                self.unread.add(source.clone(), format!("the stroke {shown:?} is unknown"));
+                None
+            }
+        }
+    }
+
+    /// An element without a stroke: a filled one with a closed outline may be the border.
+    fn unstroked(&mut self, node: Node<'a, 'a>, own: Inherited<'a>, source: Source) {
+        let is_filled = own.is_visible && !matches!(own.fill, "none" | "transparent");
+        let pieces = if is_filled && is_closed(node) {
+            self.placed(node, own.transform).unwrap_or_default()
+        } else {
+            Vec::new()
+        };
+        if pieces.is_empty() {
+            self.warnings.add(WarningKind::NotDrawn, &source);
+            return;
+        }
+        let names = self.names.clone();
+        self.filled.push(Stroke { source, names, role: Role::Border, target: 0.0, pieces });
+    }
+}
+
+fn check(what: &'static str, found: usize, limit: usize) -> Result<(), ImportError> {
+    if found <= limit {
+        return Ok(());
+    }
+    Err(ImportError::TooMany { what, found, limit })
 }
 
 fn is_drawn_container(name: &str) -> bool {
     matches!(name, "svg" | "g" | "a" | "switch")
 }
 
+/// Whether an element is a `symbol` that a `use` draws.
+fn is_used_symbol(node: Node<'_, '_>, used: &[NodeId]) -> bool {
+    node.tag_name().name() == "symbol" && used.last() == Some(&node.id())
+}
+
 fn is_shape(name: &str) -> bool {
-    matches!(name, "path" | "line" | "rect" | "polyline" | "polygon" | "circle" | "ellipse" | "use")
+    matches!(name, "path" | "line" | "rect" | "polyline" | "polygon" | "circle" | "ellipse")
 }

@@ -1,6 +1,7 @@
 //! SVG as a crease pattern, by the colours of Origami Simulator (Ghassaei, Demaine, Gershenfeld 2018).
 
 mod elements;
+mod path;
 mod shape;
 mod stroke;
 mod style;
@@ -10,27 +11,25 @@ mod viewport;
 use glam::{DAffine2, DVec2};
 use roxmltree::{Document, Node, ParsingOptions};
 
-use super::assemble::{Assembled, assemble};
-use super::drawing::{Drawing, Line};
-use super::warning::{WarningKind, Warnings};
-use super::{
-    Curves, ImportError, ImportOptions, ImportedPattern, MOST_LINES, MOST_NODES, MergeTolerance,
-    Source, UnknownElements, check_size, plan_of,
-};
+use super::drawn::{Drawn, imported};
+use super::encoding;
+use super::entities::check_entities;
+use super::warning::Warnings;
+use super::{ImportError, ImportOptions, ImportedPattern, MOST_NODES, Source, check_size};
 use elements::ElementReader;
-use shape::{Piece, Stroke};
 
 /// Reads a crease pattern from SVG.
 ///
 /// Strokes, in any notation of these colours: #000 border, of holes too · #f00 mountain, #00f valley, folding by 180°
-/// times the opacity · #0f0 cut, opened · #ff0 facet line · #f0f free hinge. `opacity` (of groups too),
-/// `stroke-opacity` and the alpha of the colour multiply; 0 is an angle of 0. Widths, dashes and fills mean nothing.
+/// times the opacity · #0f0 cut, opened · #ff0 facet line · #f0f free hinge. Other colours are read as the one of
+/// these whose hue is near; grey and hues between them are auxiliary lines and are left out. `opacity` (of groups too),
+/// `stroke-opacity` and the alpha of the colour multiply; 0 is an angle of 0. Widths and dashes mean nothing.
 ///
-/// Read are `path`, `line`, `rect`, `polyline` and `polygon` in groups, links and nested `svg` with transforms; styles
-/// by attribute, `style` and rules of `<style>` for elements, classes and ids. The last segment of a closed path is a
-/// line as the others. Bézier curves are flattened if the options say so. Elliptical arcs, circles, ellipses, rounded
-/// rectangles and `use` are not read, nor are other colours: [`ImportOptions::unknown`] says what becomes of them.
-/// Text, pictures and elements without a stroke are left out with a warning.
+/// Read are `path`, `line`, `rect`, `polyline`, `polygon`, `circle` and `ellipse` in groups, links, nested `svg` and
+/// `use` with transforms; styles by attribute, `style` and rules of `<style>` for elements, classes and ids. The last
+/// segment of a closed path is a line as the others. Curves become chords ([`ImportOptions::curve_tolerance`]).
+/// [`ImportOptions::unknown`] says what becomes of what cannot be read. If no line is border, closed outlines that are
+/// filled and have no stroke are. Text, pictures and other elements without a stroke are left out with a warning.
 ///
 /// Where `width` or `height` are in mm, cm, in, pt or pc, the sheet is in mm and has that size; otherwise it is in user
 /// units without a physical length.
@@ -39,15 +38,15 @@ use shape::{Piece, Stroke};
 /// [`ImportError`]; texts name elements by id and line.
 pub fn import_svg(bytes: &[u8], options: &ImportOptions) -> Result<ImportedPattern, ImportError> {
     check_size(bytes)?;
-    let text =
-        std::str::from_utf8(bytes).map_err(|e| ImportError::NotUtf8 { byte: e.valid_up_to() })?;
+    let text = encoding::text(bytes)?;
+    check_entities(&text)?;
     let parsing = ParsingOptions {
         nodes_limit: MOST_NODES,
-        // Drawing programs name a document type; one that defines entities could grow without bound.
-        allow_dtd: !text.contains("<!ENTITY"),
+        // Drawing programs name a document type and entities in it.
+        allow_dtd: true,
         ..ParsingOptions::default()
     };
-    let document = Document::parse_with_options(text, parsing)
+    let document = Document::parse_with_options(&text, parsing)
         .map_err(|e| ImportError::Xml { message: e.to_string() })?;
     let root = document.root_element();
     if root.tag_name().name() != "svg" {
@@ -55,34 +54,24 @@ pub fn import_svg(bytes: &[u8], options: &ImportOptions) -> Result<ImportedPatte
             found: root.tag_name().name().chars().take(40).collect(),
         });
     }
-    let numbering = LineNumbers::new(text);
+    let numbering = LineNumbers::new(&text);
     let mut warnings = Warnings::default();
     let viewport = viewport::outer(root, &numbering)?;
-    let mut reader = ElementReader::new(root, &numbering, options, &mut warnings)?;
-    reader.element(root, viewport.transform)?;
-    let (strokes, unknown) = reader.finish();
-    unknown.settle(options.unknown, &mut warnings)?;
-    let drawing = drawing(&strokes, options.curves)?;
-    let merge = options.merge.unwrap_or(MergeTolerance::DRAWING);
-    let plan = plan_of(drawing, merge, viewport.scale, true, &mut warnings)?;
-    let Assembled { sheet, targets, edge_lines, vertex_points } = assemble(&plan, &mut warnings)?;
-    let lines = edge_lines.into_iter();
+    // The sheet's y runs upwards.
+    let upright = DAffine2::from_scale(DVec2::new(1.0, -1.0));
+    let mut reader = ElementReader::new(root, &numbering, options.unknown, &mut warnings)?;
+    reader.element(root, upright * viewport.transform)?;
+    let (strokes, unread) = reader.finish();
+    unread.settle(options.unknown, &mut warnings)?;
     let title = root.children().find(|c| c.has_tag_name("title") || is_svg(*c, "title"));
-    Ok(ImportedPattern {
+    let drawn = Drawn {
         title: title.and_then(|t| t.text()).map(str::to_owned),
-        sheet,
         unit: viewport.unit,
-        targets,
-        stages: Vec::new(),
-        fixed_facets: Vec::new(),
-        edge_sources: lines.map(|l| Some(plan.lines[l? as usize].source)).collect(),
-        sources: plan.sources,
-        vertex_sources: vec![None; vertex_points.len()],
-        shape: None,
-        warnings: warnings.finish(),
-        keys: serde_json::Map::new(),
-        listed: [0; 3],
-    })
+        scale: viewport.scale,
+        page: viewport.page.map(|corners| corners.map(|p| upright.transform_point2(p))),
+        strokes,
+    };
+    imported(drawn, options, warnings)
 }
 
 fn is_svg(node: Node<'_, '_>, name: &str) -> bool {
@@ -107,76 +96,4 @@ impl LineNumbers {
         let column = at + 1 - self.starts[line - 1];
         Source::svg(node.tag_name().name(), node.attribute("id"), [line as u32, column as u32])
     }
-}
-
-/// Elements that cannot be read.
-#[derive(Default)]
-struct UnreadElement {
-    elements: Vec<Source>,
-    reasons: std::collections::BTreeSet<String>,
-}
-
-impl UnreadElement {
-    fn add(&mut self, element: Source, reason: String) {
-        self.elements.push(element);
-        self.reasons.insert(reason);
-    }
-
-    fn settle(self, unknown: UnknownElements, warnings: &mut Warnings) -> Result<(), ImportError> {
-        if self.elements.is_empty() {
-            return Ok(());
-        }
-        match unknown {
-            UnknownElements::Refuse => Err(ImportError::Unknown {
-                elements: self.elements,
-                reasons: self.reasons.into_iter().take(20).collect(),
-            }),
-            UnknownElements::Ignore => {
-                for element in &self.elements {
-                    warnings.add(WarningKind::Ignored, element);
-                }
-                Ok(())
-            }
-        }
-    }
-}
-
-/// The drawing of strokes, y upwards, curves as chords.
-fn drawing(strokes: &[Stroke], curves: Curves) -> Result<Drawing, ImportError> {
-    let ends = strokes.iter().flat_map(|s| s.pieces.iter().flat_map(Piece::points));
-    let all: Vec<DVec2> = ends.copied().collect();
-    let [low, high] = super::drawing::bounds(&all).ok_or(ImportError::Empty)?;
-    let tolerance = match curves {
-        Curves::Refuse => 0.1,
-        Curves::Flatten(tolerance) => tolerance,
-    };
-    if !(1e-6..=0.1).contains(&tolerance) {
-        return Err(ImportError::CurveTolerance { value: tolerance });
-    }
-    let mirrored = DAffine2::from_scale(DVec2::new(1.0, -1.0));
-    let mut drawing = Drawing::default();
-    for (stroke, index) in strokes.iter().zip(0..) {
-        drawing.sources.push(stroke.source.clone());
-        for piece in &stroke.pieces {
-            let chords = piece.chords(tolerance * low.distance(high));
-            for ends in chords.windows(2) {
-                let first = drawing.points.len() as u32;
-                drawing.points.extend([ends[0], ends[1]].map(|p| mirrored.transform_point2(p)));
-                drawing.lines.push(Line {
-                    ends: [first, first + 1],
-                    role: stroke.role,
-                    target: stroke.target,
-                    source: index,
-                });
-            }
-            if drawing.lines.len() > MOST_LINES {
-                return Err(ImportError::TooMany {
-                    what: "lines",
-                    found: drawing.lines.len(),
-                    limit: MOST_LINES,
-                });
-            }
-        }
-    }
-    Ok(drawing)
 }

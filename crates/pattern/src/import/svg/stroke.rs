@@ -1,30 +1,24 @@
-//! What the colour of a stroke means.
+//! What the stroke of an element means.
 
 use std::f64::consts::PI;
 use std::str::FromStr as _;
 
 use svgtypes::Color;
 
+use super::super::colour::{Meaning, meaning};
 use super::super::drawing::Role;
 
-/// What a stroke means: its role, and the alpha of its colour; an error if it has no meaning.
-pub(super) fn meaning(stroke: &str) -> Result<(Role, f64), ()> {
+/// What a stroke means, and the alpha of its colour; `None` if it is no colour.
+pub(super) fn stroke_meaning(stroke: &str) -> Option<(Meaning, f64)> {
+    // A colour of print may follow that of the screen.
+    let stroke = stroke.split(" icc-color").next().unwrap_or_default().trim();
     // The parser takes any letter for a digit of 0.
     let digits = stroke.strip_prefix('#').unwrap_or_default();
     if !digits.bytes().all(|b| b.is_ascii_hexdigit()) {
-        return Err(());
+        return None;
     }
-    let color = Color::from_str(stroke).map_err(|_| ())?;
-    let role = match (color.red, color.green, color.blue) {
-        (0, 0, 0) => Role::Border,
-        (255, 0, 0) => Role::Mountain,
-        (0, 0, 255) => Role::Valley,
-        (0, 255, 0) => Role::Cut,
-        (255, 255, 0) => Role::Facet,
-        (255, 0, 255) => Role::Free,
-        _ => return Err(()),
-    };
-    Ok((role, f64::from(color.alpha) / 255.0))
+    let color = Color::from_str(stroke).ok()?;
+    Some((meaning([color.red, color.green, color.blue]), f64::from(color.alpha) / 255.0))
 }
 
 /// The fold angle of a role at an opacity, radians.

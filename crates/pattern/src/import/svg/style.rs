@@ -15,6 +15,8 @@ const MOST_DECLARATIONS: usize = 1_000_000;
 /// The properties that matter here.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Properties<'a> {
+    pub(super) color: Option<&'a str>,
+    pub(super) fill: Option<&'a str>,
     pub(super) stroke: Option<&'a str>,
     pub(super) stroke_opacity: Option<&'a str>,
     pub(super) opacity: Option<&'a str>,
@@ -27,6 +29,8 @@ impl<'a> Properties<'a> {
     fn set(&mut self, name: &str, value: &'a str) {
         let value = Some(value.trim());
         match name {
+            "color" => self.color = value,
+            "fill" => self.fill = value,
             "stroke" => self.stroke = value,
             "stroke-opacity" => self.stroke_opacity = value,
             "opacity" => self.opacity = value,

@@ -16,6 +16,8 @@ pub(super) struct Viewport {
     /// How long a user unit is, the smaller of both directions.
     pub(super) scale: f64,
     pub(super) unit: LengthUnit,
+    /// Two opposite corners of the page, in the sheet's units; `None` if the file does not say how large it is.
+    pub(super) page: Option<[DVec2; 2]>,
 }
 
 /// The viewport of the outermost `svg`.
@@ -30,8 +32,9 @@ pub(super) fn outer(root: Node<'_, '_>, numbering: &LineNumbers) -> Result<Viewp
             _ => length,
         })
     });
-    let mut scale = match view_box(root, numbering)? {
-        Some(view) => fit(root, numbering, lengths, &view)?.unwrap_or(DVec2::ONE),
+    let view = view_box(root, numbering)?;
+    let mut scale = match &view {
+        Some(view) => fit(root, numbering, lengths, view)?.unwrap_or(DVec2::ONE),
         None if is_physical => DVec2::splat(MM_A_UNIT),
         None => DVec2::ONE,
     };
@@ -39,7 +42,18 @@ pub(super) fn outer(root: Node<'_, '_>, numbering: &LineNumbers) -> Result<Viewp
         // Without a physical size, user units are as good as pixels; only their proportion is kept.
         scale /= scale.x;
     }
-    Ok(Viewport { transform: DAffine2::from_scale(scale), scale: scale.min_element(), unit })
+    let page = match (view, size) {
+        (Some(view), _) => {
+            let low = DVec2::new(view.x, view.y);
+            Some([low, low + DVec2::new(view.w, view.h)].map(|corner| corner * scale))
+        }
+        (None, [Some((width, _)), Some((height, _))]) if !is_physical => {
+            Some([DVec2::ZERO, DVec2::new(width, height)])
+        }
+        _ => None,
+    };
+    let transform = DAffine2::from_scale(scale);
+    Ok(Viewport { transform, scale: scale.min_element(), unit, page })
 }
 
 /// From the user units in a nested `svg` to those around it.
