@@ -102,12 +102,12 @@ fn unknown_elements_are_ignored_on_request() {
 #[test]
 fn a_piece_that_is_not_there_is_refused_at_its_key() {
     let two = "<svg><rect id=\"a\" width=\"2\" height=\"2\" stroke=\"#000\"/><rect x=\"9\" width=\"2\" height=\"2\" \
-               stroke=\"#000\"/></svg>";
+               stroke=\"#000\"/><path d=\"M1 0V2M10 0V2\" stroke=\"#f00\"/></svg>";
     let scene = |piece: &str| format!("[pattern]\nfile = \"two.svg\"\npiece = \"{piece}\"\n");
     refused("two.svg", two.as_bytes(), &scene("b"), &["scene.toml:3", "pattern.piece", "0 to 1"]);
     let folder = tempfile::tempdir().unwrap();
     std::fs::write(folder.path().join("two.svg"), two).unwrap();
-    for (piece, facets) in [("a", 1), ("1", 1), ("all", 2), ("largest", 1)] {
+    for (piece, facets) in [("a", 2), ("1", 2), ("all", 4), ("largest", 2)] {
         let study = resolve(folder.path(), &scene(piece)).unwrap();
         assert_eq!(study.subject.sheet().facets.len(), facets, "{piece}");
     }
