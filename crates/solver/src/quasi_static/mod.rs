@@ -23,8 +23,8 @@ mod model_step;
 mod newton;
 mod options;
 mod outcome;
-
 mod run;
+mod snap;
 mod stall;
 mod step_control;
 mod stiffness_matrix;
@@ -32,8 +32,9 @@ mod stiffness_matrix;
 pub use contact::Contact;
 pub use effort::Effort;
 pub use hinge_hessian::fold_angle_hessian;
-pub use options::{QuasiStaticOptions, Support};
+pub use options::{QuasiStaticOptions, SnapControl, Support};
 pub use outcome::{FrameFigures, Jam, QuasiStaticRun, StageOutcome, Stop, StopReason};
+pub use snap::Snap;
 pub use run::run_quasi_static;
 
 use configuration::Configuration;

@@ -13,6 +13,17 @@ pub enum Support {
     Floating,
 }
 
+/// What becomes of a load step that finds no equilibrium in the iterations allowed to it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum SnapControl {
+    /// It is taken again, shorter and at last with many more iterations: every recorded state is an equilibrium.
+    #[default]
+    Settle,
+    /// It is kept as it is: the sheet is in motion towards its next equilibrium, downhill, while the load goes on. Only
+    /// the end of a stage is sought for as long as it takes. All states are found as accurately as those in contact.
+    PassThrough,
+}
+
 /// The options of [`super::run_quasi_static`].
 #[derive(Debug, Clone, PartialEq)]
 pub struct QuasiStaticOptions {
@@ -39,6 +50,8 @@ pub struct QuasiStaticOptions {
     pub contact: Option<Contact>,
     /// How the rigid motion of the sheet is determined in a Newton step.
     pub support: Support,
+    /// How the sheet passes through snaps.
+    pub snap_control: SnapControl,
 }
 
 impl Default for QuasiStaticOptions {
@@ -54,6 +67,7 @@ impl Default for QuasiStaticOptions {
             budget: Budget::Standard,
             contact: None,
             support: Support::default(),
+            snap_control: SnapControl::default(),
         }
     }
 }

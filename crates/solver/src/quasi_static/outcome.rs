@@ -4,6 +4,7 @@ use foldmotion_pattern::Frame;
 
 use super::effort::Effort;
 use super::newton::SearchOutcome;
+use super::snap::Snap;
 use crate::{EnergyByKind, Stage};
 
 /// The motion and how it was found.
@@ -58,7 +59,7 @@ pub struct StageOutcome {
     pub stage: Stage,
     /// Whether it was run to its end and every load step ended in equilibrium.
     pub converged: bool,
-    /// t of the last equilibrium.
+    /// t of the last state.
     pub reached: f64,
     /// The largest nodal force left at any accepted load step; where the stage did not converge, that left by the
     /// last attempt.
@@ -67,19 +68,21 @@ pub struct StageOutcome {
     pub load_steps: usize,
     /// Load steps that found no equilibrium and were tried again shorter.
     pub shortened_steps: usize,
-    /// Load steps in which the sheet snapped: it left its equilibrium and moved far to the next.
-    pub snaps: usize,
+    /// The snaps, in order of time.
+    pub snaps: Vec<Snap>,
     /// Newton iterations, those of failed load steps included.
     pub iterations: usize,
     /// The reason why the stage stopped before its end; `None` if it converged.
     pub stop: Option<Stop>,
 }
 
-/// A stage ended before its end, in the state at [`StageOutcome::reached`].
+/// A stage ended before its end, or not in equilibrium, in the state at [`StageOutcome::reached`].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Stop {
     /// The reason why the stage ended.
     pub reason: StopReason,
+    /// The motion time of the last equilibrium: later states of the stage are on the way to the next one.
+    pub time: f64,
     /// The last load step tried, in motion time: no equilibrium was found this far on.
     pub step: f64,
     /// The largest nodal force that the search left there, in the model's units.
@@ -120,10 +123,16 @@ impl StageOutcome {
             residual: 0.0,
             load_steps: 0,
             shortened_steps: 0,
-            snaps: 0,
+            snaps: Vec::new(),
             iterations: 0,
             stop: None,
         }
+    }
+
+    /// The motion time of the last equilibrium.
+    pub(super) fn last_equilibrium(&self) -> f64 {
+        let open = self.snaps.last().filter(|snap| !snap.is_over);
+        open.map_or(self.reached, |snap| snap.from)
     }
 
     pub(super) fn add(&mut self, settled: &SearchOutcome) {

@@ -10,8 +10,9 @@ use super::history::History;
 use super::jam::find_jam;
 use super::newton::{Newton, SearchOutcome, Tolerance};
 use super::outcome::{FrameFigures, QuasiStaticRun, StageOutcome, Stop, StopReason};
+use super::snap::{Snap, add_snap};
 use super::step_control::StepControl;
-use super::{QuasiStaticOptions, contact_force, force_scale, rounding_force};
+use super::{QuasiStaticOptions, SnapControl, contact_force, force_scale, rounding_force};
 use crate::{HingeKind, Model, Schedule, Snapshot, SolverError, Stage, Watcher};
 
 /// The last Newton step of an equilibrium moves no node further, in unit lengths: without contact, and with it.
@@ -33,6 +34,8 @@ const SAME_TIME: f64 = 1e-12;
 const FOLLOWING: f64 = 0.5;
 /// The iterations allowed in a snap, over those allowed elsewhere.
 const SNAP_BUDGET: usize = 40;
+/// The iterations of one load step of a sheet that passes through snaps.
+const PASSING_ITERATIONS: usize = 20;
 
 /// Folds the sheet of `model` slowly along `schedule`, from `start` (one position for each vertex, in the sheet's
 /// unit).
@@ -168,6 +171,8 @@ impl Run<'_> {
         let closing = self.options.contact.and_then(|c| Closing::new(stage, c.gap, c.final_gap));
         let standard = self.standard_budget(goals.len().max(control.least_steps()));
         let (mut s, mut recorded) = (0.0, 0);
+        // The last load step that found no equilibrium, and the outcome of its search.
+        let mut open = None;
         while let Some(&goal) = goals.get(recorded) {
             let (mut next, mut reaches) = control.next(s, goal);
             if let Some(closing) = closing.filter(|_| self.follows_targets()) {
@@ -176,17 +181,18 @@ impl Run<'_> {
                 self.close_to(closing.gap_at(next));
             }
             let is_short = control.is_short();
-            let left = self.left(standard, outcome.iterations);
-            let mut trial = self.load_step(stage, next, &history, is_short, left)?;
-            trial.settled.converged &= !self.crosses_in_touch(&trial.state);
+            let most = self.most_iterations(is_short, next == 1.0);
+            let most = most.min(self.left(standard, outcome.iterations));
+            let mut trial = self.load_step(stage, next, &history, most)?;
+            let crosses = self.crosses_in_touch(&trial.state);
+            trial.settled.converged &= !crosses;
             outcome.add(&trial.settled);
-            if !trial.settled.converged {
-                let is_spent = self.left(standard, outcome.iterations) == 0;
-                let is_late = self.options.budget.is_late();
+            let is_spent = self.left(standard, outcome.iterations) == 0;
+            let is_late = self.options.budget.is_late();
+            let may_pass = self.passes_through() && !crosses && !is_spent && !is_late;
+            open = (!trial.settled.converged).then_some((next - s, trial.settled));
+            if open.is_some() && !may_pass {
                 if is_spent || is_late || is_short {
-                    let reason = StopReason::of(is_late, is_spent);
-                    outcome.stop = Some(self.stop(reason, next - s, &trial.settled));
-                    outcome.residual = trial.settled.residual;
                     break;
                 }
                 control.shorten(next - s);
@@ -194,14 +200,16 @@ impl Run<'_> {
             }
             let pushes = |c: &ContactField| c.pushes();
             let is_pushed = self.newton.contact.as_ref().is_some_and(pushes);
-            control.adapt(&trial.settled, is_pushed);
-            outcome.snaps += usize::from(trial.settled.iterations > self.options.max_iterations);
+            if open.is_none() {
+                control.adapt(&trial.settled, is_pushed);
+            }
             let [from, to] = [s, next].map(|s| stage.start_time() + s);
+            self.note_snap(&mut outcome.snaps, [from, to], &trial);
             self.accept(from, to, &trial);
             if reaches || self.options.record_load_steps {
                 self.record(to, &trial.state);
             }
-            if trial.settled.iterations > HARD_ITERATIONS {
+            if trial.settled.iterations > HARD_ITERATIONS || open.is_some() {
                 // Where the path is not smooth, what came before says nothing about what comes next.
                 history = History::new(next, trial.state.clone());
             } else {
@@ -211,7 +219,13 @@ impl Run<'_> {
             recorded += usize::from(reaches);
             report(self.progress, self.model, to, &self.state)?;
         }
-        outcome.converged = recorded == goals.len();
+        if let Some((step, settled)) = open {
+            let is_spent = self.left(standard, outcome.iterations) == 0;
+            let reason = StopReason::of(self.options.budget.is_late(), is_spent);
+            outcome.stop = Some(self.stop(reason, outcome.last_equilibrium(), step, &settled));
+            outcome.residual = settled.residual;
+        }
+        outcome.converged = outcome.stop.is_none();
         let converged = outcome.converged;
         self.outcome.stages.push(outcome);
         Ok(converged)
@@ -251,19 +265,47 @@ impl Run<'_> {
     }
 
     /// The reason for the end of the stage in a load step of length `step`; `settled`: the outcome of its last attempt.
-    fn stop(&self, reason: StopReason, step: f64, settled: &SearchOutcome) -> Stop {
-        Stop { reason, step, residual: settled.residual, tolerance: self.tolerance().force }
+    fn stop(&self, reason: StopReason, time: f64, step: f64, settled: &SearchOutcome) -> Stop {
+        let [without, _] = self.tolerances();
+        Stop { reason, time, step, residual: settled.residual, tolerance: without.force }
+    }
+
+    /// Whether load steps that find no equilibrium are kept.
+    fn passes_through(&self) -> bool {
+        self.options.snap_control == SnapControl::PassThrough
+    }
+
+    /// The iterations of one load step, the last one of its stage or not.
+    fn most_iterations(&self, is_short: bool, is_last: bool) -> usize {
+        if self.passes_through() && !is_last {
+            PASSING_ITERATIONS.min(self.options.max_iterations)
+        } else if is_short || is_last && self.passes_through() {
+            SNAP_BUDGET * self.options.max_iterations
+        } else {
+            self.options.max_iterations
+        }
+    }
+
+    /// Adds the load step `from` to `to` to the snaps, if the sheet snapped in it.
+    fn note_snap(&self, snaps: &mut Vec<Snap>, [from, to]: [f64; 2], trial: &Trial) {
+        let is_over = trial.settled.converged;
+        let is_open = snaps.last().is_some_and(|snap| !snap.is_over);
+        if is_over && !is_open && trial.settled.iterations <= self.options.max_iterations {
+            return;
+        }
+        let [before, after] = [&self.state, &trial.state].map(|state| {
+            self.model.energy_by_kind(&state.positions, &state.angles, &self.targets).total()
+        });
+        add_snap(snaps, Snap { from, to, energy_released: before - after, is_over });
     }
 
     /// The equilibrium at `s`, sought from the state extrapolated to it where contact allows, else from the last one,
-    /// in
-    /// `most_iterations` at most.
+    /// in `most_iterations` at most.
     fn load_step(
         &mut self,
         stage: Stage,
         s: f64,
         history: &History,
-        is_short: bool,
         most_iterations: usize,
     ) -> Result<Trial, SolverError> {
         self.schedule.targets(stage, s, &mut self.targets);
@@ -284,13 +326,18 @@ impl Run<'_> {
             }
             report(progress, model, reached, state)
         };
-        let iterations = self.options.max_iterations * if is_short { SNAP_BUDGET } else { 1 };
-        let iterations = iterations.min(most_iterations) as u64;
-        let allowance = self.options.budget.allowance(iterations);
-        let tolerances = [self.tolerance(), self.contact_tolerance()];
+        let allowance = self.options.budget.allowance(most_iterations as u64);
+        let tolerances = self.tolerances();
         let settled =
             self.newton.settle(&mut state, &self.targets, tolerances, allowance, &mut visit)?;
         Ok(Trial { state, settled, path })
+    }
+
+    /// The tolerances without contact, and where layers push.
+    fn tolerances(&self) -> [Tolerance; 2] {
+        let in_contact = self.contact_tolerance();
+        let without = if self.passes_through() { in_contact } else { self.tolerance() };
+        [without, in_contact]
     }
 
     fn tolerance(&self) -> Tolerance {

@@ -2,7 +2,7 @@
 
 use foldmotion_pattern::{FacetModel, Frame};
 use foldmotion_solver::dynamic::{self, DynamicOptions, StageStatus};
-use foldmotion_solver::quasi_static::{Jam, QuasiStaticOptions, Support, run_quasi_static};
+use foldmotion_solver::quasi_static::{Jam, QuasiStaticOptions, SnapControl, Support, run_quasi_static};
 use foldmotion_solver::{Budget, Stage, Watcher};
 
 use super::stop::{StopCause, StopReport};
@@ -120,6 +120,15 @@ impl Study {
         }
     }
 
+    /// Sheets of units snap seldom, and their states are figures of a paper. A pattern that somebody drew may snap all
+    /// the time.
+    fn snap_control(&self) -> SnapControl {
+        match self.subject.units() {
+            Some(_) => SnapControl::Settle,
+            None => SnapControl::PassThrough,
+        }
+    }
+
     fn fold_in_equilibrium(
         &self,
         extra_times: &[f64],
@@ -133,6 +142,7 @@ impl Study {
             contact: self.contact,
             budget,
             support: self.support(),
+            snap_control: self.snap_control(),
             ..QuasiStaticOptions::default()
         };
         let run = run_quasi_static(
@@ -150,7 +160,7 @@ impl Study {
             steps: s.iterations as u64,
             load_steps: Some([s.load_steps as u64, s.shortened_steps as u64]),
             stop: s.stop.map(|stop| StopReport {
-                t: s.reached,
+                t: stop.time,
                 reason: stop.reason.into(),
                 load_step: Some(stop.step),
                 residual: stop.residual,
