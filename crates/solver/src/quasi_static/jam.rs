@@ -2,8 +2,9 @@
 
 use super::outcome::{Jam, QuasiStaticRun, StageOutcome, StopReason};
 
-/// A crease further than this from its target, radians, where layers push, may be kept from it by them.
-const KEPT_FROM_TARGET: f64 = 0.1;
+/// A crease further than this from its target, radians, where layers push, may be kept from it by them: 10°, as far off as
+/// creases of a folded sheet may be.
+const KEPT_FROM_TARGET: f64 = std::f64::consts::PI / 18.0;
 
 /// The jam in which `run` ended, if it did: creases far from their targets, or no further equilibrium, where layers
 /// push.

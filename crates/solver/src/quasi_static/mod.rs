@@ -50,8 +50,14 @@ pub fn force_scale(model: &Model) -> f64 {
 
 /// κ g of contact: a tenth of what hinges push with, or of bars strained by a thousandth if that is more. Multipliers
 /// carry the rest: the stiffer the planes, the more rounds it takes to find which of them push.
-fn contact_force(model: &Model) -> f64 {
-    0.1 * force_scale(model).max(1e-3 * model.material.axial_stiffness)
+///
+/// A sheet that passes through snaps presses its layers together harder, before multipliers have grown: ten times that.
+fn contact_force(model: &Model, snap_control: SnapControl) -> f64 {
+    let share = match snap_control {
+        SnapControl::Settle => 0.1,
+        SnapControl::PassThrough => 1.0,
+    };
+    share * force_scale(model).max(1e-3 * model.material.axial_stiffness)
 }
 
 /// The nodal force that rounding alone may leave: positions are known to ε |x|, which bars multiply by their stiffness.

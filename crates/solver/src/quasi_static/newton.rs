@@ -46,8 +46,6 @@ const MOST_INERTIA: f64 = 1e-2;
 const INERTIA_DECAY: f64 = 0.25;
 /// A step with an earlier factor is taken where it is at most this share of the step before it.
 const CHORD_DECREASE: f64 = 0.1;
-/// Rounds in which the active planes of a step are found; after as many the step is taken as it is.
-const MOST_ROUNDS: usize = 20;
 /// A round that advances by less than this share ends the search for the step.
 const LEAST_ADVANCE: f64 = 1e-6;
 /// After as many iterations a state whose energy is level but for rounding is no longer polished.
@@ -87,6 +85,8 @@ pub(super) struct Newton<'a> {
     /// Σ k l₀² over the bars.
     bar_stiffness: f64,
     inertia: f64,
+    /// The attempt that gave the last step.
+    attempt: usize,
     /// The elongations of the bars that the Hessian is made with.
     elongations: Vec<f64>,
     /// The Hessian in the matrix, whether it is supported, and the mean of its diagonal, while the state is the one it
@@ -95,6 +95,8 @@ pub(super) struct Newton<'a> {
     /// The largest move of the last step, if the current factor is exact and was used for it.
     chord: Option<f64>,
     pub(super) contact: Option<ContactField>,
+    /// Rounds in which the active planes of a step are found; after as many the step is taken as it is.
+    most_rounds: usize,
     pub(super) factorisations: usize,
     pub(super) analyses: usize,
     /// The pairs of nodes that contact has coupled so far.
@@ -107,6 +109,7 @@ impl<'a> Newton<'a> {
         model: &'a Model,
         contact: Option<ContactField>,
         support: Support,
+        most_rounds: usize,
     ) -> Result<Self, SolverError> {
         let matrix = StiffnessMatrix::new(model.node_count(), &coupled_nodes(model))?;
         Ok(Self {
@@ -121,10 +124,12 @@ impl<'a> Newton<'a> {
                 .map(|bar| bar.stiffness * bar.rest_length * bar.rest_length)
                 .sum(),
             inertia: INERTIA,
+            attempt: 0,
             elongations: Vec::new(),
             assembled: None,
             chord: None,
             contact,
+            most_rounds,
             factorisations: 0,
             analyses: 1,
             coupled: BTreeSet::new(),
@@ -151,6 +156,7 @@ impl<'a> Newton<'a> {
         let mut energy = self.energy(state, targets);
         let mut gradient = self.gradient(state, targets);
         self.inertia = INERTIA;
+        self.attempt = 0;
         self.chord = None;
         self.elongations = elongations(self.model, &state.positions);
         let earlier = self.factorisations;
@@ -265,7 +271,9 @@ impl<'a> Newton<'a> {
             (Curvature::Convex, 1e-2),
             (Curvature::Convex, 1.0),
         ];
-        for (curvature, inertia) in attempts {
+        // What was needed last is tried first, but for one attempt that would be better.
+        let first = self.attempt.saturating_sub(1);
+        for (attempt, (curvature, inertia)) in attempts.into_iter().enumerate().skip(first) {
             let direction = self.newton_direction(state, targets, gradient, curvature, inertia)?;
             let Some(direction) = direction else {
                 continue;
@@ -274,6 +282,7 @@ impl<'a> Newton<'a> {
                 if inertia > 0.0 {
                     self.inertia = (inertia * INERTIA_DECAY).clamp(LEAST_INERTIA, MOST_INERTIA);
                 }
+                self.attempt = attempt;
                 let is_exact = curvature == Curvature::Exact && inertia == 0.0;
                 self.chord = step.full_move.filter(|_| is_exact);
                 return Ok(Some(step));
@@ -315,7 +324,7 @@ impl<'a> Newton<'a> {
     ) -> Result<Option<Vec<DVec3>>, SolverError> {
         let x = &state.positions;
         let mut step = ModelStep::none(x.len());
-        for round in 0..MOST_ROUNDS {
+        for round in 0..self.most_rounds {
             self.make_room(contact)?;
             if !self.factorise(state, targets, curvature, inertia, Some(contact)) {
                 return Ok(None);

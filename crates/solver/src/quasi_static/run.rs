@@ -34,6 +34,10 @@ const SAME_TIME: f64 = 1e-12;
 const FOLLOWING: f64 = 0.5;
 /// The iterations allowed in a snap, over those allowed elsewhere.
 const SNAP_BUDGET: usize = 40;
+/// Rounds in which the planes of contact that push after a Newton step are found. A sheet on the way through a snap
+/// is better off with more steps.
+const MOST_ROUNDS: usize = 20;
+const MOST_ROUNDS_PASSING: usize = 6;
 /// The iterations of one load step of a sheet that passes through snaps.
 const PASSING_ITERATIONS: usize = 20;
 
@@ -75,15 +79,19 @@ pub fn run_quasi_static(
         schedule.targets(stage, 0.0, &mut angles);
     }
     let contact = match options.contact {
-        Some(contact) => Some(ContactField::new(model, contact, contact_force(model), &positions)?),
+        Some(contact) => Some(ContactField::new(model, contact, contact_force(model, options.snap_control), &positions)?),
         None => None,
+    };
+    let most_rounds = match options.snap_control {
+        SnapControl::Settle => MOST_ROUNDS,
+        SnapControl::PassThrough => MOST_ROUNDS_PASSING,
     };
     let mut run = Run {
         model,
         schedule,
         options,
         progress,
-        newton: Newton::new(model, contact, options.support)?,
+        newton: Newton::new(model, contact, options.support, most_rounds)?,
         state: Configuration::new(model, positions, angles),
         targets: vec![0.0; model.hinges.len()],
         last_recorded: Vec::new(),

@@ -41,6 +41,10 @@ const VIOLATION: f64 = 0.1;
 const KEPT: f64 = 1.0 - VIOLATION;
 /// Pairs that come closer than this many gaps on the way to an equilibrium are pressed hard.
 const PRESSED: f64 = 0.75;
+/// By how much κ grows of a pair whose multiplier converges too slowly, and of one that cut a step short: each step that
+/// it cuts is lost for the rest of the sheet.
+const STIFFENING: f64 = 2.0;
+const STIFFENING_OF_CUTS: f64 = 8.0;
 /// Positions are known to this share of their size.
 const ROUNDING: f64 = 16.0 * f64::EPSILON;
 /// A gap above this share of the smallest height of a facet cannot be kept by a folded sheet.
@@ -312,7 +316,7 @@ impl ContactField {
             let pair = self.candidates.pair_mut(plane.pair);
             pair.multiplier = plane.multiplier;
             if violation(plane) > VIOLATION {
-                plane.stiffen(pair);
+                plane.stiffen(pair, STIFFENING);
             }
         }
         true
@@ -324,7 +328,7 @@ impl ContactField {
         let mut stiffened = false;
         for plane in &mut self.planes {
             if plane.value_at(positions) < PRESSED * plane.gap {
-                stiffened |= plane.stiffen(self.candidates.pair_mut(plane.pair));
+                stiffened |= plane.stiffen(self.candidates.pair_mut(plane.pair), STIFFENING_OF_CUTS);
             }
         }
         stiffened

@@ -25,8 +25,7 @@ const LEAST_SHARE: f64 = 1e-3;
 const OFF_FACET: f64 = 2.0;
 const LEAST_HEIGHT: f64 = 0.5;
 
-/// By how much κ grows of a pair whose multiplier converges too slowly, and the largest growth in all.
-const STIFFENING: f64 = 2.0;
+/// The largest growth of κ in all.
 const MOST_STIFFENING: f64 = 1e6;
 
 /// How the distance between the two is measured.
@@ -115,12 +114,12 @@ impl Plane {
         Some(plane)
     }
 
-    /// Lets κ of its `pair` grow, if it may.
-    pub(super) fn stiffen(&mut self, pair: &mut ContactPair) -> bool {
+    /// Lets κ of its `pair` grow by `factor`, if it may.
+    pub(super) fn stiffen(&mut self, pair: &mut ContactPair, factor: f64) -> bool {
         let may_grow = pair.stiffening < MOST_STIFFENING;
         if may_grow {
-            pair.stiffening *= STIFFENING;
-            self.stiffness *= STIFFENING;
+            pair.stiffening *= factor;
+            self.stiffness *= factor;
         }
         may_grow
     }
