@@ -60,11 +60,24 @@ fn contact_force(model: &Model, snap_control: SnapControl) -> f64 {
     share * force_scale(model).max(1e-3 * model.material.axial_stiffness)
 }
 
-/// The nodal force that rounding alone may leave: positions are known to ε |x|, which bars multiply by their stiffness.
+/// The nodal force that rounding alone may leave: positions are known to ε |x|, which bars multiply by their stiffness,
+/// and hinges and face angles by theirs over the square of a height at rest.
 fn rounding_force(model: &Model, positions: &[DVec3]) -> f64 {
-    let bar = |bar: &crate::Bar| {
-        let [a, b] = bar.vertices.map(|v| positions[v as usize].length());
-        bar.stiffness * (a + b)
+    let size = |nodes: &[u32]| nodes.iter().map(|&v| positions[v as usize].length()).sum::<f64>();
+    let height = |[a, b, c]: [u32; 3]| {
+        let [a, b, c] = [a, b, c].map(|v| model.pattern[v as usize]);
+        let longest = a.distance(b).max(b.distance(c)).max(c.distance(a));
+        (b - a).perp_dot(c - a).abs() / longest
     };
-    8.0 * f64::EPSILON * model.bars.iter().map(bar).fold(0.0, f64::max)
+    let bars = model.bars.iter().map(|bar| bar.stiffness * size(&bar.vertices));
+    let hinges = model.hinges.iter().map(|hinge| {
+        let [a, b, left, right] = hinge.vertices;
+        let least = height([a, b, left]).min(height([a, b, right]));
+        hinge.stiffness * size(&[a, b]) / (least * least)
+    });
+    let faces = model.face_angles.iter().map(|face| {
+        let least = height(face.vertices);
+        model.material.face_angle_stiffness * size(&face.vertices[..2]) / (least * least)
+    });
+    8.0 * f64::EPSILON * bars.chain(hinges).chain(faces).fold(0.0, f64::max)
 }

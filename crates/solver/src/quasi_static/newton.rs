@@ -72,6 +72,9 @@ pub(super) struct Tolerance {
     pub(super) step: f64,
     /// The largest move that a further step with an earlier factor would make.
     pub(super) remainder: f64,
+    /// A balanced state is level where a step promises to lower the energy by no more than this share of it: the rest is
+    /// motion of a sheet that resists none. 0: by no more than rounding, and after some polishing.
+    pub(super) level: f64,
 }
 
 /// The search, with the matrix it reuses.
@@ -194,7 +197,11 @@ impl<'a> Newton<'a> {
                 return Ok(settled(is_balanced));
             };
             is_near = step.is_last(&tolerance);
-            is_level = step.is_level && iterations > POLISHED;
+            is_level = if tolerance.level > 0.0 {
+                step.promised <= tolerance.level * energy.abs()
+            } else {
+                step.promised <= self.energy_rounding(energy) && iterations > POLISHED
+            };
             residual = largest(&step.gradient);
             let [from, to] = [&state.positions, &step.state.positions];
             self.elongations = foreseen_elongations(self.model, from, to);
@@ -501,7 +508,7 @@ impl<'a> Newton<'a> {
                             full_move: (length == 1.0).then_some(reach),
                             decrease: None,
                             is_cut,
-                            is_level: -slope <= rounding,
+                            promised: -slope,
                         });
                     }
                 }
@@ -539,8 +546,8 @@ struct Step {
     decrease: Option<f64>,
     /// Whether contact shortened it.
     is_cut: bool,
-    /// Whether rounding may change the energy by more than the step was to lower it.
-    is_level: bool,
+    /// By how much it was to lower the energy, to first order.
+    promised: f64,
 }
 
 impl Step {

@@ -38,6 +38,8 @@ const SNAP_BUDGET: usize = 40;
 /// is better off with more steps.
 const MOST_ROUNDS: usize = 20;
 const MOST_ROUNDS_PASSING: usize = 6;
+/// The energy that a balanced sheet that passes through snaps may still lose in a step, as a share of it.
+const LEVEL: f64 = 1e-9;
 /// The iterations of one load step of a sheet that passes through snaps.
 const PASSING_ITERATIONS: usize = 20;
 
@@ -354,6 +356,7 @@ impl Run<'_> {
             force: self.options.tolerance * force_scale(self.model) + rounding,
             step: STEP_TOLERANCE,
             remainder: REMAINDER * largest(&self.state.positions),
+            level: 0.0,
         }
     }
 
@@ -365,6 +368,7 @@ impl Run<'_> {
             force: without.force + lenient,
             step: CONTACT_STEP_TOLERANCE,
             remainder: without.remainder.max(CONTACT_REMAINDER),
+            level: if self.passes_through() { LEVEL } else { 0.0 },
         }
     }
 
