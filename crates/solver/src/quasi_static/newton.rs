@@ -92,8 +92,8 @@ pub(super) struct Newton<'a> {
     attempt: usize,
     /// The elongations of the bars that the Hessian is made with.
     elongations: Vec<f64>,
-    /// The Hessian in the matrix, whether it is supported, and the mean of its diagonal, while the state is the one it
-    /// was assembled at.
+    /// The Hessian without contact that the matrix has or keeps, whether it is supported, and the mean of its diagonal,
+    /// while the state is the one it was assembled at.
     assembled: Option<(Curvature, bool, f64)>,
     /// The largest move of the last step, if the current factor is exact and was used for it.
     chord: Option<f64>,
@@ -409,6 +409,7 @@ impl<'a> Newton<'a> {
         pairs.extend(&self.coupled);
         self.matrix = StiffnessMatrix::new(self.model.node_count(), &pairs)?;
         self.elements = ElementMap::new(self.model, &self.matrix);
+        self.assembled = None;
         self.analyses += 1;
         Ok(())
     }
@@ -425,29 +426,42 @@ impl<'a> Newton<'a> {
     ) -> bool {
         // Inertia alone makes the matrix positive definite.
         let is_supported = self.support == Support::Triangle || inertia == 0.0;
-        let scale = match self.assembled {
-            Some((present, supported, scale))
-                if present == curvature && supported == is_supported && contact.is_none() =>
-            {
+        let known = self
+            .assembled
+            .filter(|(present, supported, _)| *present == curvature && *supported == is_supported);
+        let scale = match known {
+            Some((.., scale)) => {
+                if contact.is_some() {
+                    self.matrix.restore();
+                }
                 scale
             }
-            _ => self.assemble(state, targets, curvature, is_supported, contact),
+            None => {
+                let scale = self.assemble(state, targets, curvature, is_supported);
+                if contact.is_some() {
+                    self.matrix.keep();
+                }
+                scale
+            }
         };
         self.assembled = Some((curvature, is_supported, scale));
+        if let Some(contact) = contact {
+            let is_exact = curvature == Curvature::Exact;
+            contact.add_stiffness(&state.positions, is_exact, &mut self.matrix);
+        }
         self.factorisations += 1;
         let is_definite = self.matrix.factorise(inertia * scale);
         self.effort.indefinite += usize::from(!is_definite);
         is_definite
     }
 
-    /// Assembles K + S; returns the mean diagonal of K without contact.
+    /// Assembles K + S without contact; returns the mean diagonal of K.
     fn assemble(
         &mut self,
         state: &Configuration,
         targets: &[f64],
         curvature: Curvature,
         is_supported: bool,
-        contact: Option<&ContactField>,
     ) -> f64 {
         self.matrix.clear();
         let (elements, matrix) = (&self.elements, &mut self.matrix);
@@ -455,10 +469,6 @@ impl<'a> Newton<'a> {
         let scale = self.matrix.mean_diagonal();
         if is_supported {
             add_support(self.supported, state, scale, &mut self.matrix);
-        }
-        if let Some(contact) = contact {
-            let is_exact = curvature == Curvature::Exact;
-            contact.add_stiffness(&state.positions, is_exact, &mut self.matrix);
         }
         scale
     }

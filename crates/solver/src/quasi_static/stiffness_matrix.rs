@@ -17,6 +17,8 @@ pub(super) struct StiffnessMatrix {
     rows: Vec<u32>,
     /// Each block by columns.
     values: Vec<[f64; 9]>,
+    /// The values to go back to.
+    kept: Vec<[f64; 9]>,
     offsets: Vec<BlockOffset>,
     cholesky: Cholesky,
     right_side: Vec<f64>,
@@ -51,6 +53,7 @@ impl StiffnessMatrix {
             columns.filter_map(|(row, column)| cholesky.offset(row, column)).collect();
         Ok(Self {
             values: vec![[0.0; 9]; rows.len()],
+            kept: Vec::new(),
             right_side: vec![0.0; 3 * nodes],
             starts,
             rows,
@@ -61,6 +64,16 @@ impl StiffnessMatrix {
 
     pub(super) fn clear(&mut self) {
         self.values.fill([0.0; 9]);
+    }
+
+    /// Keeps the values, to go back to them.
+    pub(super) fn keep(&mut self) {
+        self.kept.clone_from(&self.values);
+    }
+
+    /// Goes back to the values that were kept.
+    pub(super) fn restore(&mut self) {
+        self.values.clone_from(&self.kept);
     }
 
     /// The positions of the blocks of an element; `None` if the pattern has no room for one.
