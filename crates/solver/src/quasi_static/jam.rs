@@ -4,7 +4,7 @@ use super::outcome::{Jam, QuasiStaticRun, StageOutcome, StopReason};
 
 /// A crease further than this from its target, radians, where layers push, may be kept from it by them: 10°, as far off as
 /// creases of a folded sheet may be.
-const KEPT_FROM_TARGET: f64 = std::f64::consts::PI / 18.0;
+pub(super) const KEPT_FROM_TARGET: f64 = std::f64::consts::PI / 18.0;
 
 /// The jam in which `run` ended, if it did: creases far from their targets, or no further equilibrium, where layers
 /// push.
@@ -23,6 +23,12 @@ pub(super) fn find_jam(
         stop.is_some_and(|stop| stop.reason == StopReason::NoEquilibrium)
     };
     let ended_early = run.stages.iter().any(found_none);
+    // What a budget ended might have gone on.
+    let is_cut_short = !ended_early && run.stages.iter().any(|stage| stage.stop.is_some());
+    let is_free = run.release.is_some_and(|release| !release.is_jam());
+    if is_cut_short || is_free {
+        return None;
+    }
     let is_kept = last.fold_angle_error > limit;
     if blocking.is_empty() || !(is_kept || ended_early) {
         return None;

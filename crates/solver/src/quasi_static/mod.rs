@@ -33,7 +33,7 @@ pub use contact::Contact;
 pub use effort::Effort;
 pub use hinge_hessian::fold_angle_hessian;
 pub use options::{QuasiStaticOptions, SnapControl, Support};
-pub use outcome::{FrameFigures, Jam, QuasiStaticRun, StageOutcome, Stop, StopReason};
+pub use outcome::{FrameFigures, Jam, QuasiStaticRun, Release, StageOutcome, Stop, StopReason};
 pub use snap::Snap;
 pub use run::run_quasi_static;
 

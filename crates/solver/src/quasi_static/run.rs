@@ -7,9 +7,9 @@ use super::closing::Closing;
 use super::configuration::{Configuration, largest};
 use super::contact::ContactField;
 use super::history::History;
-use super::jam::find_jam;
+use super::jam::{KEPT_FROM_TARGET, find_jam};
 use super::newton::{Newton, SearchOutcome, Tolerance};
-use super::outcome::{FrameFigures, QuasiStaticRun, StageOutcome, Stop, StopReason};
+use super::outcome::{FrameFigures, QuasiStaticRun, Release, StageOutcome, Stop, StopReason};
 use super::snap::{Snap, add_snap};
 use super::step_control::StepControl;
 use super::{QuasiStaticOptions, SnapControl, contact_force, force_scale, rounding_force};
@@ -40,8 +40,12 @@ const MOST_ROUNDS: usize = 20;
 const MOST_ROUNDS_PASSING: usize = 6;
 /// The energy that a balanced sheet that passes through snaps may still lose in a step, as a share of it.
 const LEVEL: f64 = 1e-9;
-/// The iterations of one load step of a sheet that passes through snaps.
-const PASSING_ITERATIONS: usize = 20;
+/// The iterations of one load step of a sheet that passes through snaps: this many nodes times iterations, within these
+/// limits, so that a large sheet arrives too; those at the end of a stage, and those after layers are let go.
+const PASSING_WORK: usize = 40_000;
+const PASSING_ITERATIONS: [usize; 2] = [8, 20];
+const ENDING_ITERATIONS: usize = 600;
+const RELEASE_ITERATIONS: u64 = 300;
 
 /// Folds the sheet of `model` slowly along `schedule`, from `start` (one position for each vertex, in the sheet's
 /// unit).
@@ -106,7 +110,7 @@ pub fn run_quasi_static(
             break;
         }
     }
-    run.finish();
+    run.finish()?;
     Ok(run.outcome)
 }
 
@@ -287,9 +291,11 @@ impl Run<'_> {
 
     /// The iterations of one load step, the last one of its stage or not.
     fn most_iterations(&self, is_short: bool, is_last: bool) -> usize {
-        if self.passes_through() && !is_last {
-            PASSING_ITERATIONS.min(self.options.max_iterations)
-        } else if is_short || is_last && self.passes_through() {
+        if self.passes_through() {
+            let [least, most] = PASSING_ITERATIONS;
+            let passing = (PASSING_WORK / self.model.node_count()).clamp(least, most);
+            if is_last { ENDING_ITERATIONS } else { passing }
+        } else if is_short {
             SNAP_BUDGET * self.options.max_iterations
         } else {
             self.options.max_iterations
@@ -449,8 +455,42 @@ impl Run<'_> {
             .fold(0.0, f64::max)
     }
 
+    /// The mean |θ − θ*| of the creases, radians.
+    fn mean_fold_angle_error(&self, state: &Configuration) -> f64 {
+        let creases = self.model.hinges.iter().zip(&state.angles).zip(&self.targets);
+        let creases = creases.filter(|((hinge, _), _)| hinge.kind == HingeKind::Crease);
+        let (sum, count) = creases.fold((0.0, 0_u32), |(sum, count), ((_, angle), target)| {
+            (sum + (angle - target).abs(), count + 1)
+        });
+        sum / f64::from(count.max(1))
+    }
+
+    /// Lets go of the layers in the last state, if they push there and creases are off their targets.
+    fn release(&mut self) -> Result<Option<Release>, SolverError> {
+        let is_over = self.outcome.stages.iter().all(|stage| stage.reached == stage.stage.start_time() + 1.0);
+        let is_off = self.fold_angle_error(&self.state) > KEPT_FROM_TARGET;
+        let pushes = self.newton.contact.as_ref().is_some_and(ContactField::pushes);
+        if !(self.passes_through() && is_over && is_off && pushes) {
+            return Ok(None);
+        }
+        let contact = self.newton.contact.take();
+        let mut state = self.state.clone();
+        let (progress, model) = (self.progress, self.model);
+        let time = self.outcome.frames.last().map_or(0.0, |frame| frame.time);
+        let mut visit = |state: &Configuration| report(progress, model, time, state);
+        let allowance = self.options.budget.allowance(RELEASE_ITERATIONS);
+        let tolerances = self.tolerances();
+        let settled =
+            self.newton.settle(&mut state, &self.targets, tolerances, allowance, &mut visit);
+        self.newton.contact = contact;
+        settled?;
+        let [with_contact, without_contact] =
+            [&self.state, &state].map(|state| self.mean_fold_angle_error(state));
+        Ok(Some(Release { with_contact, without_contact }))
+    }
+
     /// Records the last equilibrium where it is no frame, and says whether contact stopped the motion.
-    fn finish(&mut self) {
+    fn finish(&mut self) -> Result<(), SolverError> {
         let reached = self.outcome.stages.last().map(|stage| stage.reached);
         let recorded = self.outcome.frames.last().map(|frame| frame.time);
         if let (Some(reached), Some(recorded)) = (reached, recorded)
@@ -458,6 +498,7 @@ impl Run<'_> {
         {
             self.record(reached, &self.state.clone());
         }
+        self.outcome.release = self.release()?;
         self.outcome.factorisations = self.newton.factorisations;
         self.outcome.analyses = self.newton.analyses;
         self.outcome.effort = self.newton.effort;
@@ -469,5 +510,6 @@ impl Run<'_> {
             let slack = contact.fold_angle_slack();
             self.outcome.jam = find_jam(&self.outcome, slack, blocking);
         }
+        Ok(())
     }
 }

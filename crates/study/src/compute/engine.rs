@@ -2,7 +2,7 @@
 
 use foldmotion_pattern::{FacetModel, Frame};
 use foldmotion_solver::dynamic::{self, DynamicOptions, StageStatus};
-use foldmotion_solver::quasi_static::{Jam, QuasiStaticOptions, SnapControl, Support, run_quasi_static};
+use foldmotion_solver::quasi_static::{Jam, QuasiStaticOptions, Snap, SnapControl, Support, run_quasi_static};
 use foldmotion_solver::{Budget, Stage, Watcher};
 
 use super::stop::{StopCause, StopReport};
@@ -22,6 +22,8 @@ pub(crate) struct EngineRun {
     pub(crate) jam: Option<Jam>,
     /// The gap that layers keep in the last state; `None` without contact.
     pub(crate) gap_reached: Option<f64>,
+    /// The mean error of the creases, in radians, after layers in contact were let go; `None` if they were not.
+    pub(crate) error_without_contact: Option<f64>,
     /// The number of steps of the dynamic engine, or of Newton iterations of the quasi-static one.
     pub(crate) steps: u64,
     /// The device: cpu, or the name of the GPU.
@@ -29,7 +31,7 @@ pub(crate) struct EngineRun {
 }
 
 /// A summary of a stage.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone)]
 pub(crate) struct StageSummary {
     pub(crate) stage: Stage,
     pub(crate) converged: bool,
@@ -41,6 +43,8 @@ pub(crate) struct StageSummary {
     pub(crate) steps: u64,
     /// The number of load steps of the quasi-static engine, and of those that had to be shortened.
     pub(crate) load_steps: Option<[u64; 2]>,
+    /// The snaps of the quasi-static engine.
+    pub(crate) snaps: Vec<Snap>,
     /// What ended the stage; `None` if it converged.
     pub(crate) stop: Option<StopReport>,
 }
@@ -89,6 +93,7 @@ impl Study {
             residual: s.residual,
             steps: s.steps,
             load_steps: None,
+            snaps: Vec::new(),
             stop: (!s.is_converged()).then_some(StopReport {
                 t: s.reached,
                 reason: if s.status == StageStatus::OutOfTime {
@@ -106,6 +111,7 @@ impl Study {
             contacts: Vec::new(),
             jam: None,
             gap_reached: None,
+            error_without_contact: None,
             steps: run.steps,
             device: run.device,
             frames: run.frames,
@@ -159,6 +165,7 @@ impl Study {
             residual: s.residual,
             steps: s.iterations as u64,
             load_steps: Some([s.load_steps as u64, s.shortened_steps as u64]),
+            snaps: s.snaps.clone(),
             stop: s.stop.map(|stop| StopReport {
                 t: stop.time,
                 reason: stop.reason.into(),
@@ -178,6 +185,7 @@ impl Study {
             device: "cpu".to_owned(),
             jam: run.jam,
             gap_reached: run.gap_reached,
+            error_without_contact: run.release.map(|release| release.without_contact),
             frames: run.frames,
         })
     }

@@ -22,6 +22,11 @@ pub struct FoldAngleReport {
     pub edge: Option<usize>,
     /// The sheet counts as folded if no crease is further than this from its target, in degrees.
     pub tolerance_deg: f64,
+    /// The mean error in degrees if the layers of the last state were then let through each other, which tells whether
+    /// contact or the stiffness of the sheet keeps creases from their targets; null if the creases are near them, no
+    /// layers push, or the motion ended early.
+    #[serde(default)]
+    pub mean_error_without_contact_deg: Option<f64>,
 }
 
 impl FoldAngleReport {
@@ -50,6 +55,7 @@ impl FoldAngleReport {
             mean_error_deg: sum / f64::from(count.max(1)),
             edge: largest.map(|(index, _)| index),
             tolerance_deg: FOLDED_WITHIN_DEG,
+            mean_error_without_contact_deg: None,
         }
     }
 
@@ -60,8 +66,11 @@ impl FoldAngleReport {
 
     /// The errors of the creases, as part of a sentence.
     pub(crate) fn words(&self) -> String {
+        let without = self.mean_error_without_contact_deg.map_or_else(String::new, |error| {
+            format!("; without contact, {error:.1} on average")
+        });
         format!(
-            "creases end up to {:.1} degrees from their targets ({:.1} on average)",
+            "creases end up to {:.1} degrees from their targets ({:.1} on average{without})",
             self.largest_error_deg, self.mean_error_deg
         )
     }

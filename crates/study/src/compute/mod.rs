@@ -144,7 +144,11 @@ impl Study {
         let jam = checked_run.computed.jam.as_ref();
         let jam = jam.map(|jam| JamReport::new(jam, &self.subject));
         let stop = checked_run.computed.stages.iter().find_map(|stage| stage.stop);
-        let fold_angles = FoldAngleReport::new(sheet, last, self.subject.end_angles());
+        let without_contact = checked_run.computed.error_without_contact;
+        let fold_angles = FoldAngleReport {
+            mean_error_without_contact_deg: without_contact.map(f64::to_degrees),
+            ..FoldAngleReport::new(sheet, last, self.subject.end_angles())
+        };
         let outcome = Outcome::of(&OutcomeInput {
             end: frames.last().map_or(0.0, |frame| frame.time),
             jam: jam.as_ref(),

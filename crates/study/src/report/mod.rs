@@ -19,7 +19,7 @@ pub use self::collision::{CollisionSection, DecidedBy, PenetrationReport};
 pub use self::compact::{BoxReport, CompactReport, ErrorReport, SkinPlaneReport, SkinReport};
 pub use self::imported::ImportReport;
 use self::motion::stage_report;
-pub use self::motion::{EnergyReport, EngineReport, SecondsReport, StageReport};
+pub use self::motion::{EnergyReport, EngineReport, SecondsReport, SnapReport, StageReport};
 pub use self::sheet::{
     DivisionReport, FitReport, MapReport, PatternReport, ProfileReport, RowReport, UnfoldReport,
     UnitReport, VertexReport,

@@ -1,6 +1,8 @@
 //! Stages and engine in the report.
 
+use foldmotion_geometry::Number;
 use foldmotion_solver::Stage;
+use foldmotion_solver::quasi_static::Snap;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -39,6 +41,52 @@ pub struct StageReport {
     pub load_steps: Option<u64>,
     /// The number of load steps that found no equilibrium and were repeated with a shorter step.
     pub shortened_load_steps: Option<u64>,
+    /// The snaps, in order of time: parts of the motion in which the sheet was not in equilibrium, but on the way from
+    /// one equilibrium to another.
+    #[serde(default)]
+    pub snaps: Vec<SnapReport>,
+}
+
+/// The number of snaps that are named on the terminal.
+const NAMED_SNAPS: usize = 3;
+
+impl StageReport {
+    /// The snaps, those that released most energy by their times, as a line for the terminal.
+    pub(crate) fn snap_line(&self) -> String {
+        let mut largest: Vec<&SnapReport> = self.snaps.iter().collect();
+        largest.sort_by(|a, b| b.energy_released.total_cmp(&a.energy_released));
+        let named = largest.iter().take(NAMED_SNAPS).map(|snap| {
+            let (from, to, energy) = (snap.from_t, snap.to_t, Number(snap.energy_released));
+            format!("t = {from:.4} to {to:.4} ({energy:.2})")
+        });
+        let plural = if self.snaps.len() == 1 { "" } else { "s" };
+        format!(
+            "{} snap{plural} in stage {}, from one equilibrium to another; most energy released at {}",
+            self.snaps.len(),
+            self.name.name(),
+            named.collect::<Vec<_>>().join(", ")
+        )
+    }
+}
+
+/// A snap: the sheet left its equilibrium and moved far to another.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct SnapReport {
+    /// The motion time of the last equilibrium before the snap.
+    pub from_t: f64,
+    /// The motion time of the first equilibrium after it; of the last state if it did not end.
+    pub to_t: f64,
+    /// The elastic energy that the sheet lost in it, in the unit of `peak_energy`.
+    pub energy_released: f64,
+    /// Whether the sheet came to rest in an equilibrium.
+    pub is_over: bool,
+}
+
+impl SnapReport {
+    fn new(snap: &Snap) -> Self {
+        let Snap { from, to, energy_released, is_over } = *snap;
+        Self { from_t: from, to_t: to, energy_released, is_over }
+    }
 }
 
 /// Energy by kind, in units of EA·h at EA = 1.
@@ -128,5 +176,6 @@ pub(super) fn stage_report(stage: &StageSummary, series: &[FrameFigures]) -> Sta
         steps: stage.steps,
         load_steps: stage.load_steps.map(|n| n[0]),
         shortened_load_steps: stage.load_steps.map(|n| n[1]),
+        snaps: stage.snaps.iter().map(SnapReport::new).collect(),
     }
 }

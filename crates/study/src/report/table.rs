@@ -54,6 +54,9 @@ impl Report {
         if let Some(stop) = &self.stop {
             let _ = writeln!(out, "{}", stop.line());
         }
+        for s in self.stages.iter().filter(|s| !s.snaps.is_empty()) {
+            let _ = writeln!(out, "{}", s.snap_line());
+        }
         if let Some(layers) = &self.layer_order {
             let end = self.path.end_t;
             let _ = writeln!(out, "{}; the motion got as far as t = {end:.4}", layers.line());
