@@ -91,7 +91,8 @@ fn main() -> Result<ExitCode, Box<dyn Error>> {
         println!("{}", row.line);
     }
     let count = |kind: &str| rows.iter().filter(|row| row.kind == kind).count();
-    let kinds = ["folded", "jammed", "not-converged", "stopped", "collides", "undecided", "refused"];
+    let kinds =
+        ["folded", "jammed", "not-converged", "stopped", "collides", "undecided", "refused"];
     let counts = kinds.map(|kind| format!("{} {kind}", count(kind)));
     println!("\n{} files: {}.", rows.len(), counts.join(", "));
     Ok(ExitCode::from(u8::from(count("refused") > 0)))
@@ -112,7 +113,10 @@ impl Row {
             Err(error) => {
                 let reason = error.to_string().replace(['|', '\n'], " ");
                 let empty = " | ".repeat(COLUMNS.len() - 3);
-                Self { kind: "refused".to_owned(), line: format!("| {name} | | refused: {reason} |{empty}|") }
+                Self {
+                    kind: "refused".to_owned(),
+                    line: format!("| {name} | | refused: {reason} |{empty}|"),
+                }
             }
         }
     }

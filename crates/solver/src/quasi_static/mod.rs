@@ -34,8 +34,8 @@ pub use effort::Effort;
 pub use hinge_hessian::fold_angle_hessian;
 pub use options::{QuasiStaticOptions, SnapControl, Support};
 pub use outcome::{FrameFigures, Jam, QuasiStaticRun, Release, StageOutcome, Stop, StopReason};
-pub use snap::Snap;
 pub use run::run_quasi_static;
+pub use snap::Snap;
 
 use configuration::Configuration;
 use glam::DVec3;

@@ -63,7 +63,7 @@ pub struct FrameFigures {
 pub struct StageOutcome {
     /// The stage of the motion.
     pub stage: Stage,
-    /// Whether it was run to its end and every load step ended in equilibrium.
+    /// Whether it was run to its end and ended in equilibrium.
     pub converged: bool,
     /// t of the last state.
     pub reached: f64,
@@ -87,7 +87,8 @@ pub struct StageOutcome {
 pub struct Stop {
     /// The reason why the stage ended.
     pub reason: StopReason,
-    /// The motion time of the last equilibrium: later states of the stage are on the way to the next one.
+    /// The motion time of the last equilibrium if none was found further on; states after it are on the way to the next
+    /// one. If a budget ended the stage, that of its last state.
     pub time: f64,
     /// The last load step tried, in motion time: no equilibrium was found this far on.
     pub step: f64,

@@ -40,11 +40,10 @@ const MOST_ROUNDS: usize = 20;
 const MOST_ROUNDS_PASSING: usize = 6;
 /// The energy that a balanced sheet that passes through snaps may still lose in a step, as a share of it.
 const LEVEL: f64 = 1e-9;
-/// The iterations of one load step of a sheet that passes through snaps: this many nodes times iterations, within these
-/// limits, so that a large sheet arrives too; those at the end of a stage, and those after layers are let go.
-const PASSING_WORK: usize = 40_000;
-const PASSING_ITERATIONS: [usize; 2] = [8, 20];
-const ENDING_ITERATIONS: usize = 600;
+/// The iterations of a sheet that passes through snaps: of one load step, of the last one of a stage, and after layers
+/// are let go.
+const PASSING_ITERATIONS: usize = 12;
+const ENDING_ITERATIONS: usize = 400;
 const RELEASE_ITERATIONS: u64 = 300;
 
 /// Folds the sheet of `model` slowly along `schedule`, from `start` (one position for each vertex, in the sheet's
@@ -85,7 +84,12 @@ pub fn run_quasi_static(
         schedule.targets(stage, 0.0, &mut angles);
     }
     let contact = match options.contact {
-        Some(contact) => Some(ContactField::new(model, contact, contact_force(model, options.snap_control), &positions)?),
+        Some(contact) => Some(ContactField::new(
+            model,
+            contact,
+            contact_force(model, options.snap_control),
+            &positions,
+        )?),
         None => None,
     };
     let most_rounds = match options.snap_control {
@@ -233,16 +237,19 @@ impl Run<'_> {
             recorded += usize::from(reaches);
             report(self.progress, self.model, to, &self.state)?;
         }
+        outcome.converged = open.is_none();
         if let Some((step, settled)) = open {
-            let is_spent = self.left(standard, outcome.iterations) == 0;
-            let reason = StopReason::of(self.options.budget.is_late(), is_spent);
-            outcome.stop = Some(self.stop(reason, outcome.last_equilibrium(), step, &settled));
             outcome.residual = settled.residual;
+            // A sheet that passes through snaps may still tremble where its creases want it.
+            if s < 1.0 || self.fold_angle_error(&self.state) > KEPT_FROM_TARGET {
+                let is_spent = self.left(standard, outcome.iterations) == 0;
+                let reason = StopReason::of(self.options.budget.is_late(), is_spent);
+                outcome.stop = Some(self.stop(&outcome, reason, step, &settled));
+            }
         }
-        outcome.converged = outcome.stop.is_none();
-        let converged = outcome.converged;
+        let goes_on = outcome.stop.is_none();
         self.outcome.stages.push(outcome);
-        Ok(converged)
+        Ok(goes_on)
     }
 
     /// Whether the creases are near the targets of the last load step, so that no layer keeps them from these.
@@ -278,9 +285,19 @@ impl Run<'_> {
         usize::try_from(left).unwrap_or(usize::MAX)
     }
 
-    /// The reason for the end of the stage in a load step of length `step`; `settled`: the outcome of its last attempt.
-    fn stop(&self, reason: StopReason, time: f64, step: f64, settled: &SearchOutcome) -> Stop {
+    /// The reason for the end of `stage` in a load step of length `step`; `settled`: the outcome of its last attempt.
+    fn stop(
+        &self,
+        stage: &StageOutcome,
+        reason: StopReason,
+        step: f64,
+        settled: &SearchOutcome,
+    ) -> Stop {
         let [without, _] = self.tolerances();
+        let time = match reason {
+            StopReason::NoEquilibrium => stage.last_equilibrium(),
+            StopReason::OutOfIterations | StopReason::OutOfTime => stage.reached,
+        };
         Stop { reason, time, step, residual: settled.residual, tolerance: without.force }
     }
 
@@ -292,9 +309,7 @@ impl Run<'_> {
     /// The iterations of one load step, the last one of its stage or not.
     fn most_iterations(&self, is_short: bool, is_last: bool) -> usize {
         if self.passes_through() {
-            let [least, most] = PASSING_ITERATIONS;
-            let passing = (PASSING_WORK / self.model.node_count()).clamp(least, most);
-            if is_last { ENDING_ITERATIONS } else { passing }
+            if is_last { ENDING_ITERATIONS } else { PASSING_ITERATIONS }
         } else if is_short {
             SNAP_BUDGET * self.options.max_iterations
         } else {
@@ -467,7 +482,8 @@ impl Run<'_> {
 
     /// Lets go of the layers in the last state, if they push there and creases are off their targets.
     fn release(&mut self) -> Result<Option<Release>, SolverError> {
-        let is_over = self.outcome.stages.iter().all(|stage| stage.reached == stage.stage.start_time() + 1.0);
+        let is_over =
+            self.outcome.stages.iter().all(|stage| stage.reached == stage.stage.start_time() + 1.0);
         let is_off = self.fold_angle_error(&self.state) > KEPT_FROM_TARGET;
         let pushes = self.newton.contact.as_ref().is_some_and(ContactField::pushes);
         if !(self.passes_through() && is_over && is_off && pushes) {

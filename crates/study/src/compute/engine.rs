@@ -2,7 +2,9 @@
 
 use foldmotion_pattern::{FacetModel, Frame};
 use foldmotion_solver::dynamic::{self, DynamicOptions, StageStatus};
-use foldmotion_solver::quasi_static::{Jam, QuasiStaticOptions, Snap, SnapControl, Support, run_quasi_static};
+use foldmotion_solver::quasi_static::{
+    Jam, QuasiStaticOptions, Snap, SnapControl, Support, run_quasi_static,
+};
 use foldmotion_solver::{Budget, Stage, Watcher};
 
 use super::stop::{StopCause, StopReport};

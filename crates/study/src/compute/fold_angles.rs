@@ -66,9 +66,9 @@ impl FoldAngleReport {
 
     /// The errors of the creases, as part of a sentence.
     pub(crate) fn words(&self) -> String {
-        let without = self.mean_error_without_contact_deg.map_or_else(String::new, |error| {
-            format!("; without contact, {error:.1} on average")
-        });
+        let without = self
+            .mean_error_without_contact_deg
+            .map_or_else(String::new, |error| format!("; without contact, {error:.1} on average"));
         format!(
             "creases end up to {:.1} degrees from their targets ({:.1} on average{without})",
             self.largest_error_deg, self.mean_error_deg

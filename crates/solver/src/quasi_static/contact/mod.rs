@@ -328,7 +328,8 @@ impl ContactField {
         let mut stiffened = false;
         for plane in &mut self.planes {
             if plane.value_at(positions) < PRESSED * plane.gap {
-                stiffened |= plane.stiffen(self.candidates.pair_mut(plane.pair), STIFFENING_OF_CUTS);
+                stiffened |=
+                    plane.stiffen(self.candidates.pair_mut(plane.pair), STIFFENING_OF_CUTS);
             }
         }
         stiffened
