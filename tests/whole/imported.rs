@@ -212,6 +212,42 @@ fn a_bird_base_folds_and_a_crane_is_reported_not_to_reach_its_end() {
     assert!(report.jam.is_some() || !report.stages[0].converged);
 }
 
+#[test]
+fn snaps_are_listed_with_their_times_and_the_energy_they_released() {
+    let (report, _) = run(&example("bird-base.fold"), &[]);
+    let snaps = &report.stages[0].snaps;
+    assert!(!snaps.is_empty());
+    for snap in snaps {
+        assert!(snap.is_over && snap.energy_released > 0.0, "{snap:?}");
+        assert!(1.0 <= snap.from_t && snap.from_t < snap.to_t && snap.to_t <= 2.0, "{snap:?}");
+    }
+    assert!(snaps.windows(2).all(|pair| pair[0].to_t <= pair[1].from_t));
+    let (report, _) = run(&example("miura.fold"), &[]);
+    assert!(report.stages[0].snaps.is_empty(), "a Miura sheet does not snap");
+}
+
+#[test]
+fn a_jam_is_what_goes_on_without_contact_and_what_does_not_is_too_stiff() {
+    let (crane, _) = run(&example("crane.fold"), &[]);
+    let without = crane.fold_angles.mean_error_without_contact_deg.unwrap();
+    assert_eq!(crane.outcome.kind, OutcomeKind::Jammed);
+    assert!(without < 1.0 && crane.fold_angles.mean_error_deg > 10.0, "{without}");
+    let (frame, _) = run(&example("frame.fold"), &[]);
+    let without = frame.fold_angles.mean_error_without_contact_deg.unwrap();
+    assert_eq!(frame.outcome.kind, OutcomeKind::NotConverged);
+    assert!(without > 0.8 * frame.fold_angles.mean_error_deg, "{without}");
+    assert!(frame.jam.is_none());
+}
+
+#[test]
+fn what_a_budget_ends_is_stopped_where_it_is_even_where_layers_push() {
+    let (report, _) = run(&example("crane.fold"), &["motion.budget=\"500 steps\""]);
+    assert_eq!((report.outcome.kind, report.status()), (OutcomeKind::Stopped, 3));
+    assert!(report.jam.is_none() && report.stages[0].most_contacts > 0);
+    let last = report.path.end_t;
+    assert!((report.outcome.t - last).abs() < 1e-9, "{} {last}", report.outcome.t);
+}
+
 /// A strip of three panels with two creases, whose frames fold one after the other.
 fn strip() -> Value {
     let angles = |a: f64, b: f64| json!([null, null, null, null, null, null, null, null, a, b]);

@@ -4,7 +4,7 @@
 use foldmotion_geometry::RigidMotion;
 use foldmotion_pattern::{Case, Facing, Unit, UnitSheet};
 use foldmotion_solver::quasi_static::{
-    QuasiStaticOptions, QuasiStaticRun, StopReason, force_scale, run_quasi_static,
+    QuasiStaticOptions, QuasiStaticRun, SnapControl, StopReason, force_scale, run_quasi_static,
 };
 use foldmotion_solver::{
     HingeKind, Material, Model, Schedule, Snapshot, SolverError, Stage, dynamic,
@@ -227,6 +227,23 @@ fn a_search_without_enough_iterations_keeps_what_was_reached_and_says_where_it_e
     assert_eq!(stop.reason, StopReason::NoEquilibrium);
     assert!(stop.residual > stop.tolerance, "{stop:?}");
     assert!(stop.step > 0.0 && stop.step < 1.0 / 120.0, "{stop:?}");
+}
+
+#[test]
+fn a_sheet_that_passes_through_its_snap_ends_where_the_one_that_settles_ends() {
+    let scene = scene(Case::T, 7, 5, &axial(2_000.0), 1.0);
+    let planar = scene.sheet.sheet.planar();
+    let fold = |snap_control| {
+        let options = QuasiStaticOptions { snap_control, stages: vec![Stage::Fold], ..frames(24) };
+        run_quasi_static(&scene.model, &scene.schedule, &planar, &options, &|_| true).unwrap()
+    };
+    let [settled, passed] = [SnapControl::Settle, SnapControl::PassThrough].map(fold);
+    let end = |run: &QuasiStaticRun| run.frames.last().unwrap().positions.clone();
+    assert!(settled.is_complete() && passed.is_complete());
+    assert!(misfit(&end(&settled), &end(&passed)) < 1e-4);
+    let snaps = &passed.stages[0].snaps;
+    assert!(snaps.iter().all(|snap| snap.is_over && snap.energy_released > 0.0), "{snaps:?}");
+    assert!(!snaps.is_empty());
 }
 
 #[test]

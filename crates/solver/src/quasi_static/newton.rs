@@ -429,14 +429,13 @@ impl<'a> Newton<'a> {
         let known = self
             .assembled
             .filter(|(present, supported, _)| *present == curvature && *supported == is_supported);
-        let scale = match known {
-            Some((.., scale)) => {
-                if contact.is_some() {
-                    self.matrix.restore();
-                }
+        let scale = match (known, contact) {
+            (Some((.., scale)), None) => scale,
+            (Some((.., scale)), Some(_)) => {
+                self.matrix.restore();
                 scale
             }
-            None => {
+            (None, _) => {
                 let scale = self.assemble(state, targets, curvature, is_supported);
                 if contact.is_some() {
                     self.matrix.keep();
