@@ -23,19 +23,26 @@ mod model_step;
 mod newton;
 mod options;
 mod outcome;
+mod release;
 mod run;
 mod snap;
+mod snap_control;
 mod stall;
 mod step_control;
 mod stiffness_matrix;
+mod support;
 
 pub use contact::Contact;
 pub use effort::Effort;
 pub use hinge_hessian::fold_angle_hessian;
-pub use options::{QuasiStaticOptions, SnapControl, Support};
-pub use outcome::{FrameFigures, Jam, QuasiStaticRun, Release, StageOutcome, Stop, StopReason};
+pub use jam::FOLDED_WITHIN_DEG;
+pub use options::QuasiStaticOptions;
+pub use outcome::{FrameFigures, Jam, QuasiStaticRun, StageOutcome, Stop, StopReason};
+pub use release::Release;
 pub use run::run_quasi_static;
 pub use snap::Snap;
+pub use snap_control::SnapControl;
+pub use support::Support;
 
 use configuration::Configuration;
 use glam::DVec3;
@@ -48,16 +55,9 @@ pub fn force_scale(model: &Model) -> f64 {
     model.material.fold_stiffness.max(model.material.facet_stiffness)
 }
 
-/// κ g of contact: a tenth of what hinges push with, or of bars strained by a thousandth if that is more. Multipliers
-/// carry the rest: the stiffer the planes, the more rounds it takes to find which of them push.
-///
-/// A sheet that passes through snaps presses its layers together harder, before multipliers have grown: ten times that.
+/// κ g of contact: a share of what hinges push with, or of bars strained by a thousandth if that is more.
 fn contact_force(model: &Model, snap_control: SnapControl) -> f64 {
-    let share = match snap_control {
-        SnapControl::Settle => 0.1,
-        SnapControl::PassThrough => 1.0,
-    };
-    share * force_scale(model).max(1e-3 * model.material.axial_stiffness)
+    snap_control.contact_share() * force_scale(model).max(1e-3 * model.material.axial_stiffness)
 }
 
 /// The nodal force that rounding alone may leave: positions are known to ε |x|, which bars multiply by their stiffness,

@@ -11,19 +11,18 @@
 
 use std::collections::BTreeSet;
 
-use glam::{DMat3, DVec3};
+use glam::DVec3;
 
-use super::Support;
 use super::configuration::{Configuration, dot, largest};
 use super::contact::ContactField;
 use super::effort::Effort;
 use super::element_stiffness::{
     Curvature, ElementMap, add_stiffness, coupled_nodes, elongations, foreseen_elongations,
 };
-use super::hinge_hessian::outer;
 use super::model_step::ModelStep;
 use super::stall::Stall;
 use super::stiffness_matrix::StiffnessMatrix;
+use super::support::{Support, add_support, remove_rigid_motion, supporting_triangle};
 use crate::budget::Allowance;
 use crate::{Model, SolverError};
 
@@ -566,59 +565,5 @@ impl Step {
             Some(decrease) => moved * decrease <= tolerance.remainder,
             None => moved <= tolerance.step,
         })
-    }
-}
-
-/// Takes from the velocities `direction` of points at `positions` their mean and the rotation that fits them best, so
-/// that no point of support shows in them.
-fn remove_rigid_motion(positions: &[DVec3], direction: &mut [DVec3]) {
-    let inverse_count = 1.0 / positions.len().max(1) as f64;
-    let centre = positions.iter().sum::<DVec3>() * inverse_count;
-    let mean = direction.iter().sum::<DVec3>() * inverse_count;
-    let mut inertia = DMat3::ZERO;
-    let mut momentum = DVec3::ZERO;
-    for (&position, &velocity) in positions.iter().zip(&*direction) {
-        let arm = position - centre;
-        inertia += DMat3::IDENTITY * arm.length_squared() - outer(arm, arm);
-        momentum += arm.cross(velocity - mean);
-    }
-    let spin = inertia.inverse() * momentum;
-    let spin = if spin.is_finite() { spin } else { DVec3::ZERO };
-    for (&position, velocity) in positions.iter().zip(direction) {
-        *velocity -= mean + spin.cross(position - centre);
-    }
-}
-
-/// A triangle amid the sheet: the left one of the middle hinge; of a sheet without hinges its one triangle.
-fn supporting_triangle(model: &Model) -> [u32; 3] {
-    match model.hinges.get(model.hinges.len() / 2) {
-        Some(hinge) => {
-            let [e0, e1, left, _] = hinge.vertices;
-            [e0, e1, left]
-        }
-        None => model.faces[0],
-    }
-}
-
-/// Supports the triangle: its first node in space, its second across the line to the first, its third across the
-/// plane of the three.
-fn add_support(
-    triangle: [u32; 3],
-    state: &Configuration,
-    stiffness: f64,
-    matrix: &mut StiffnessMatrix,
-) {
-    let [a, b, c] = triangle.map(|v| state.positions[v as usize]);
-    let along = (b - a).normalize_or_zero();
-    let normal = (b - a).cross(c - a).normalize_or_zero();
-    let blocks = [
-        DMat3::IDENTITY * stiffness,
-        (DMat3::IDENTITY - outer(along, along)) * stiffness,
-        outer(normal, normal) * stiffness,
-    ];
-    for (&node, block) in triangle.iter().zip(blocks) {
-        if let Some(places) = matrix.element(&[node]) {
-            matrix.add(&places, &[[block]]);
-        }
     }
 }

@@ -1,28 +1,7 @@
 //! The options of a quasi-static run.
 
-use super::Contact;
+use super::{Contact, SnapControl, Support};
 use crate::{Budget, SolverError, Stage};
-
-/// How the rigid motion of the sheet is determined in a Newton step, on which its energy does not depend.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Support {
-    /// A triangle amid the sheet stays where it is, so that the steps of a symmetric sheet are not symmetric.
-    #[default]
-    Triangle,
-    /// It neither moves nor turns: steps are as symmetric as the sheet.
-    Floating,
-}
-
-/// What becomes of a load step that finds no equilibrium in the iterations allowed to it.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum SnapControl {
-    /// It is taken again, shorter and at last with many more iterations: every recorded state is an equilibrium.
-    #[default]
-    Settle,
-    /// It is kept as it is: the sheet is in motion towards its next equilibrium, downhill, while the load goes on. Only
-    /// the end of a stage is sought for as long as it takes. All states are found as accurately as those in contact.
-    PassThrough,
-}
 
 /// The options of [`super::run_quasi_static`].
 #[derive(Debug, Clone, PartialEq)]

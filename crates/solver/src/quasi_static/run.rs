@@ -7,12 +7,13 @@ use super::closing::Closing;
 use super::configuration::{Configuration, largest};
 use super::contact::ContactField;
 use super::history::History;
-use super::jam::{KEPT_FROM_TARGET, find_jam};
+use super::jam::{FOLDED_WITHIN, find_jam};
 use super::newton::{Newton, SearchOutcome, Tolerance};
-use super::outcome::{FrameFigures, QuasiStaticRun, Release, StageOutcome, Stop, StopReason};
+use super::outcome::{FrameFigures, QuasiStaticRun, StageOutcome, Stop, StopReason};
+use super::release::Release;
 use super::snap::{Snap, add_snap};
 use super::step_control::StepControl;
-use super::{QuasiStaticOptions, SnapControl, contact_force, force_scale, rounding_force};
+use super::{QuasiStaticOptions, contact_force, force_scale, rounding_force};
 use crate::{HingeKind, Model, Schedule, Snapshot, SolverError, Stage, Watcher};
 
 /// The last Newton step of an equilibrium moves no node further, in unit lengths: without contact, and with it.
@@ -34,12 +35,6 @@ const SAME_TIME: f64 = 1e-12;
 const FOLLOWING: f64 = 0.5;
 /// The iterations allowed in a snap, over those allowed elsewhere.
 const SNAP_BUDGET: usize = 40;
-/// Rounds in which the planes of contact that push after a Newton step are found. A sheet on the way through a snap
-/// is better off with more steps.
-const MOST_ROUNDS: usize = 20;
-const MOST_ROUNDS_PASSING: usize = 6;
-/// The energy that a balanced sheet that passes through snaps may still lose in a step, as a share of it.
-const LEVEL: f64 = 1e-9;
 /// The iterations of a sheet that passes through snaps: of one load step, of the last one of a stage, and after layers
 /// are let go.
 const PASSING_ITERATIONS: usize = 12;
@@ -84,24 +79,18 @@ pub fn run_quasi_static(
         schedule.targets(stage, 0.0, &mut angles);
     }
     let contact = match options.contact {
-        Some(contact) => Some(ContactField::new(
-            model,
-            contact,
-            contact_force(model, options.snap_control),
-            &positions,
-        )?),
+        Some(contact) => {
+            let force = contact_force(model, options.snap_control);
+            Some(ContactField::new(model, contact, force, &positions)?)
+        }
         None => None,
-    };
-    let most_rounds = match options.snap_control {
-        SnapControl::Settle => MOST_ROUNDS,
-        SnapControl::PassThrough => MOST_ROUNDS_PASSING,
     };
     let mut run = Run {
         model,
         schedule,
         options,
         progress,
-        newton: Newton::new(model, contact, options.support, most_rounds)?,
+        newton: Newton::new(model, contact, options.support, options.snap_control.most_rounds())?,
         state: Configuration::new(model, positions, angles),
         targets: vec![0.0; model.hinges.len()],
         last_recorded: Vec::new(),
@@ -189,7 +178,7 @@ impl Run<'_> {
         let closing = self.options.contact.and_then(|c| Closing::new(stage, c.gap, c.final_gap));
         let standard = self.standard_budget(goals.len().max(control.least_steps()));
         let (mut s, mut recorded) = (0.0, 0);
-        // The last load step that found no equilibrium, and the outcome of its search.
+        // The last load step if it found no equilibrium, the outcome of its search, and the reason to stop there.
         let mut open = None;
         while let Some(&goal) = goals.get(recorded) {
             let (mut next, mut reaches) = control.next(s, goal);
@@ -208,7 +197,8 @@ impl Run<'_> {
             let is_spent = self.left(standard, outcome.iterations) == 0;
             let is_late = self.options.budget.is_late();
             let may_pass = self.passes_through() && !crosses && !is_spent && !is_late;
-            open = (!trial.settled.converged).then_some((next - s, trial.settled));
+            let reason = StopReason::of(is_late, is_spent);
+            open = (!trial.settled.converged).then_some((next - s, trial.settled, reason));
             if open.is_some() && !may_pass {
                 if is_spent || is_late || is_short {
                     break;
@@ -238,12 +228,10 @@ impl Run<'_> {
             report(self.progress, self.model, to, &self.state)?;
         }
         outcome.converged = open.is_none();
-        if let Some((step, settled)) = open {
+        if let Some((step, settled, reason)) = open {
             outcome.residual = settled.residual;
             // A sheet that passes through snaps may still tremble where its creases want it.
-            if s < 1.0 || self.fold_angle_error(&self.state) > KEPT_FROM_TARGET {
-                let is_spent = self.left(standard, outcome.iterations) == 0;
-                let reason = StopReason::of(self.options.budget.is_late(), is_spent);
+            if s < 1.0 || self.fold_angle_error(&self.state) > FOLDED_WITHIN {
                 outcome.stop = Some(self.stop(&outcome, reason, step, &settled));
             }
         }
@@ -303,7 +291,7 @@ impl Run<'_> {
 
     /// Whether load steps that find no equilibrium are kept.
     fn passes_through(&self) -> bool {
-        self.options.snap_control == SnapControl::PassThrough
+        self.options.snap_control.passes_through()
     }
 
     /// The iterations of one load step, the last one of its stage or not.
@@ -364,11 +352,18 @@ impl Run<'_> {
         Ok(Trial { state, settled, path })
     }
 
-    /// The tolerances without contact, and where layers push.
+    /// The tolerances without contact, and where layers push, but for rounding of their forces. A sheet that passes
+    /// through snaps has the latter only.
     fn tolerances(&self) -> [Tolerance; 2] {
-        let in_contact = self.contact_tolerance();
-        let without = if self.passes_through() { in_contact } else { self.tolerance() };
-        [without, in_contact]
+        let without = self.tolerance();
+        let lenient = CONTACT_LENIENCE * self.options.tolerance * force_scale(self.model);
+        let in_contact = Tolerance {
+            force: without.force + lenient,
+            step: CONTACT_STEP_TOLERANCE,
+            remainder: without.remainder.max(CONTACT_REMAINDER),
+            level: self.options.snap_control.level(),
+        };
+        [if self.passes_through() { in_contact } else { without }, in_contact]
     }
 
     fn tolerance(&self) -> Tolerance {
@@ -378,18 +373,6 @@ impl Run<'_> {
             step: STEP_TOLERANCE,
             remainder: REMAINDER * largest(&self.state.positions),
             level: 0.0,
-        }
-    }
-
-    /// The tolerance of states in which layers push, but for rounding of their forces.
-    fn contact_tolerance(&self) -> Tolerance {
-        let without = self.tolerance();
-        let lenient = CONTACT_LENIENCE * self.options.tolerance * force_scale(self.model);
-        Tolerance {
-            force: without.force + lenient,
-            step: CONTACT_STEP_TOLERANCE,
-            remainder: without.remainder.max(CONTACT_REMAINDER),
-            level: if self.passes_through() { LEVEL } else { 0.0 },
         }
     }
 
@@ -462,29 +445,28 @@ impl Run<'_> {
         self.outcome.figures.push(figures);
     }
 
-    fn fold_angle_error(&self, state: &Configuration) -> f64 {
-        let creases = self.model.hinges.iter().zip(&state.angles).zip(&self.targets);
-        creases
-            .filter(|((hinge, _), _)| hinge.kind == HingeKind::Crease)
-            .map(|((_, angle), target)| (angle - target).abs())
-            .fold(0.0, f64::max)
-    }
-
-    /// The mean |θ − θ*| of the creases, radians.
-    fn mean_fold_angle_error(&self, state: &Configuration) -> f64 {
+    /// |θ − θ*| of each crease, radians.
+    fn fold_angle_errors(&self, state: &Configuration) -> Vec<f64> {
         let creases = self.model.hinges.iter().zip(&state.angles).zip(&self.targets);
         let creases = creases.filter(|((hinge, _), _)| hinge.kind == HingeKind::Crease);
-        let (sum, count) = creases.fold((0.0, 0_u32), |(sum, count), ((_, angle), target)| {
-            (sum + (angle - target).abs(), count + 1)
-        });
-        sum / f64::from(count.max(1))
+        creases.map(|((_, angle), target)| (angle - target).abs()).collect()
     }
 
-    /// Lets go of the layers in the last state, if they push there and creases are off their targets.
+    fn fold_angle_error(&self, state: &Configuration) -> f64 {
+        self.fold_angle_errors(state).into_iter().fold(0.0, f64::max)
+    }
+
+    fn mean_fold_angle_error(&self, state: &Configuration) -> f64 {
+        let errors = self.fold_angle_errors(state);
+        errors.iter().sum::<f64>() / errors.len().max(1) as f64
+    }
+
+    /// Lets go of the layers in the last state, if they push there and creases are off their targets. `None` too if the
+    /// time of the budget is used up: how far the sheet would go is then unknown.
     fn release(&mut self) -> Result<Option<Release>, SolverError> {
         let is_over =
             self.outcome.stages.iter().all(|stage| stage.reached == stage.stage.start_time() + 1.0);
-        let is_off = self.fold_angle_error(&self.state) > KEPT_FROM_TARGET;
+        let is_off = self.fold_angle_error(&self.state) > FOLDED_WITHIN;
         let pushes = self.newton.contact.as_ref().is_some_and(ContactField::pushes);
         if !(self.passes_through() && is_over && is_off && pushes) {
             return Ok(None);
@@ -500,6 +482,9 @@ impl Run<'_> {
             self.newton.settle(&mut state, &self.targets, tolerances, allowance, &mut visit);
         self.newton.contact = contact;
         settled?;
+        if self.options.budget.is_late() {
+            return Ok(None);
+        }
         let [with_contact, without_contact] =
             [&self.state, &state].map(|state| self.mean_fold_angle_error(state));
         Ok(Some(Release { with_contact, without_contact }))

@@ -3,13 +3,10 @@
 use std::f64::consts::TAU;
 
 use foldmotion_pattern::{Assignment, Sheet};
+use foldmotion_solver::quasi_static::FOLDED_WITHIN_DEG;
 use glam::DVec3;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-
-/// A crease that ends further than this from its target, in degrees, did not fold to the end. In the built-in scenes, the
-/// contact gap and the stiffness of the sheet keep creases up to 5 degrees from their targets.
-pub(crate) const FOLDED_WITHIN_DEG: f64 = 10.0;
 
 /// Differences of the fold angles in the last state from the targets of the end of the motion.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
