@@ -9,8 +9,6 @@
 //! for the following steps too (the chord method): near the equilibrium they cost a fraction and lead to the same
 //! point. With contact every step is cut where two layers would come too close.
 
-use std::collections::BTreeSet;
-
 use glam::DVec3;
 
 use super::configuration::{Configuration, dot, largest};
@@ -101,8 +99,6 @@ pub(super) struct Newton<'a> {
     most_rounds: usize,
     pub(super) factorisations: usize,
     pub(super) analyses: usize,
-    /// The pairs of nodes that contact has coupled so far.
-    coupled: BTreeSet<[u32; 2]>,
     pub(super) effort: Effort,
 }
 
@@ -134,7 +130,6 @@ impl<'a> Newton<'a> {
             most_rounds,
             factorisations: 0,
             analyses: 1,
-            coupled: BTreeSet::new(),
             effort: Effort::default(),
         })
     }
@@ -403,9 +398,9 @@ impl<'a> Newton<'a> {
         if contact.fits(&self.matrix) {
             return Ok(());
         }
-        self.coupled.extend(contact.coupled_nodes());
+        // Room for earlier planes would fill the factor more and more.
         let mut pairs = coupled_nodes(self.model);
-        pairs.extend(&self.coupled);
+        pairs.extend(contact.coupled_nodes());
         self.matrix = StiffnessMatrix::new(self.model.node_count(), &pairs)?;
         self.elements = ElementMap::new(self.model, &self.matrix);
         self.assembled = None;

@@ -1,5 +1,7 @@
 //! The run: load steps along the stages of the schedule.
 
+use std::ops::RangeInclusive;
+
 use foldmotion_pattern::Frame;
 use glam::DVec3;
 
@@ -35,9 +37,11 @@ const SAME_TIME: f64 = 1e-12;
 const FOLLOWING: f64 = 0.5;
 /// The iterations allowed in a snap, over those allowed elsewhere.
 const SNAP_BUDGET: usize = 40;
-/// The iterations of a sheet that passes through snaps: of one load step, of the last one of a stage, and after layers
-/// are let go.
-const PASSING_ITERATIONS: usize = 12;
+/// The iterations of one load step of a sheet that passes through snaps. A large sheet, which each of them takes longer,
+/// makes do with fewer: about this number over its triangles.
+const PASSING_ITERATIONS: RangeInclusive<usize> = 4..=12;
+const PASSING_ITERATIONS_BY_TRIANGLES: usize = 12_000;
+/// The iterations of the last load step of a stage of such a sheet, and after layers are let go.
 const ENDING_ITERATIONS: usize = 400;
 const RELEASE_ITERATIONS: u64 = 300;
 
@@ -105,6 +109,32 @@ pub fn run_quasi_static(
     }
     run.finish()?;
     Ok(run.outcome)
+}
+
+/// The index of a state of `path`, from `next` on, as far along it as strides, from `stride` on, find one that can be
+/// reached straight from `last`; `next` itself always can.
+fn furthest_straight(
+    contact: &mut ContactField,
+    last: &[DVec3],
+    path: &[Configuration],
+    [next, stride]: [usize; 2],
+) -> usize {
+    let (mut furthest, mut stride, mut grows) = (next, stride, true);
+    while stride > 0 {
+        let ahead = path.get(furthest + stride);
+        if ahead.is_some_and(|ahead| contact.is_path_free(last, &ahead.positions)) {
+            furthest += stride;
+        } else {
+            grows = false;
+        }
+        stride = if grows { 2 * stride } else { stride / 2 };
+    }
+    furthest
+}
+
+fn passing_iterations(model: &Model) -> usize {
+    let by_triangles = PASSING_ITERATIONS_BY_TRIANGLES / model.faces.len().max(1);
+    by_triangles.clamp(*PASSING_ITERATIONS.start(), *PASSING_ITERATIONS.end())
 }
 
 /// Tells `progress` of `state`, sought after the equilibrium at `time` was reached.
@@ -297,7 +327,7 @@ impl Run<'_> {
     /// The iterations of one load step, the last one of its stage or not.
     fn most_iterations(&self, is_short: bool, is_last: bool) -> usize {
         if self.passes_through() {
-            if is_last { ENDING_ITERATIONS } else { PASSING_ITERATIONS }
+            if is_last { ENDING_ITERATIONS } else { passing_iterations(self.model) }
         } else if is_short {
             SNAP_BUDGET * self.options.max_iterations
         } else {
@@ -406,21 +436,22 @@ impl Run<'_> {
         let Some(contact) = &mut self.newton.contact else {
             return;
         };
-        let (path, end) = (&trial.path, &trial.state.positions);
-        let mut between: Vec<usize> = Vec::new();
+        let path = &trial.path;
         let mut last = &self.last_recorded;
-        let mut next = 0;
-        while next < path.len() && !contact.is_path_free(last, end) {
-            // As far along the path as can be reached straight; the next state always can.
-            let mut furthest = next;
-            while furthest + 1 < path.len()
-                && contact.is_path_free(last, &path[furthest + 1].positions)
-            {
-                furthest += 1;
+        if contact.is_path_free(last, &trial.state.positions) {
+            return;
+        }
+        // The path ends in the new state.
+        let mut between: Vec<usize> = Vec::new();
+        let (mut next, mut stride) = (0, 1);
+        loop {
+            let furthest = furthest_straight(contact, last, path, [next, stride]);
+            if furthest + 1 >= path.len() {
+                break;
             }
             between.push(furthest);
             last = &path[furthest].positions;
-            next = furthest + 1;
+            (next, stride) = (furthest + 1, furthest - next + 1);
         }
         let parts = (between.len() + 1) as f64;
         for (index, at) in between.into_iter().enumerate() {
