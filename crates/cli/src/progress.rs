@@ -14,7 +14,7 @@ use crate::interrupt::should_continue;
 const PLAIN_STEPS: u32 = 4;
 
 /// A line is printed after this time in any case, to show that work continues.
-const HEARTBEAT: Duration = Duration::from_secs(10);
+const HEARTBEAT: Duration = Duration::from_secs(4);
 
 /// How often the bar shows the time.
 const TICK: Duration = Duration::from_millis(200);
@@ -32,6 +32,7 @@ pub(crate) struct Reporter {
 struct LastLine {
     started: Instant,
     phase: Option<&'static str>,
+    phase_started: Instant,
     /// The number of the line within its phase, from 0 to [`PLAIN_STEPS`].
     step: u32,
     /// The share of the phase that is done, from 0 to 1.
@@ -52,6 +53,7 @@ impl Reporter {
         let last = Arc::new(Mutex::new(LastLine {
             started: now,
             phase: None,
+            phase_started: now,
             step: 0,
             done: 0.0,
             at: now,
@@ -66,13 +68,19 @@ impl Reporter {
     pub(crate) fn report(&self, name: &'static str, done: f64) {
         let done = done.clamp(0.0, 1.0);
         if let Some(bar) = &self.bar {
-            bar.set_message(name);
+            if bar.message() != name {
+                bar.set_message(name);
+                bar.reset_eta();
+            }
             bar.set_position((done * 1000.0).round() as u64);
         }
         let Some(last) = &self.last else { return };
         let mut last = lock(last);
         let step = (done * f64::from(PLAIN_STEPS)).floor() as u32;
         last.done = done;
+        if last.phase != Some(name) {
+            last.phase_started = Instant::now();
+        }
         if last.phase != Some(name) || last.step < step {
             (last.phase, last.step, last.at) = (Some(name), step, Instant::now());
             let _ = writeln!(std::io::stderr(), "{} {} %", name, 100 * step / PLAIN_STEPS);
@@ -100,7 +108,8 @@ impl Reporter {
 
 fn bar() -> ProgressBar {
     let bar = ProgressBar::new(1000);
-    let template = "{msg:>12} [{bar:40}] {percent:>3} %  {elapsed}";
+    let template =
+        "{msg:>12} [{bar:40}] {percent:>3} %  {elapsed}, about {eta} to the end of this phase";
     if let Ok(style) = ProgressStyle::with_template(template) {
         bar.set_style(style.progress_chars("=> "));
     }
@@ -117,12 +126,36 @@ fn repeat(last: &Weak<Mutex<LastLine>>) {
         if let Some(phase) = last.phase.filter(|_| last.at.elapsed() >= HEARTBEAT) {
             last.at = Instant::now();
             let (percent, seconds) = (100.0 * last.done, last.started.elapsed().as_secs());
-            let _ = writeln!(std::io::stderr(), "{phase} {percent:.0} %, {seconds} s elapsed");
+            let left = match left(last.done, last.phase_started.elapsed()) {
+                Some(left) => format!(", about {} s to the end of this phase", left.as_secs()),
+                None => String::new(),
+            };
+            let _ =
+                writeln!(std::io::stderr(), "{phase} {percent:.0} %, {seconds} s elapsed{left}");
         }
     }
+}
+
+/// The time left to a phase of which the share `done` took `elapsed`, if it goes on like that; `None` before it is under
+/// way.
+fn left(done: f64, elapsed: Duration) -> Option<Duration> {
+    Duration::try_from_secs_f64(elapsed.as_secs_f64() * (1.0 - done) / done).ok()
 }
 
 fn lock(last: &Mutex<LastLine>) -> MutexGuard<'_, LastLine> {
     // A poisoned lock only means that another report panicked; there is nothing to protect.
     last.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_time_left_is_that_of_a_phase_that_goes_on_as_it_began() {
+        let elapsed = Duration::from_secs(30);
+        assert_eq!(left(0.25, elapsed), Some(Duration::from_secs(90)));
+        assert_eq!(left(1.0, elapsed), Some(Duration::ZERO));
+        assert_eq!(left(0.0, elapsed), None);
+    }
 }
