@@ -196,7 +196,7 @@ fn contact_stops_short_plain_rectangles_and_names_what_blocks() {
 #[test]
 fn a_jammed_sheet_claims_no_order_of_layers_that_it_does_not_have() {
     let home = tempfile::tempdir().unwrap();
-    let set = ["material.preset=near-rigid", "motion.frames=120", "record.outputs=[\"fold\"]"];
+    let set = ["material.preset=near-rigid", "motion.frames=200", "record.outputs=[\"fold\"]"];
     let report = run("shelter-t", &set, home.path());
     assert_eq!(report.outcome.kind, OutcomeKind::Jammed);
     assert_eq!(report.collision.verdict.name(), "free");
