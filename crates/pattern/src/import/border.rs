@@ -1,6 +1,4 @@
-//! A border for drawings that have none, and drawings whose grid has its colour.
-
-use std::collections::BTreeSet;
+//! A border for drawings that have none.
 
 use glam::DVec2;
 
@@ -10,8 +8,6 @@ use super::split::planar_graph;
 use super::warning::{WarningKind, Warnings};
 use super::{ImportError, Source};
 
-/// The fewest border lines that can be a grid.
-const LEAST_GRID: usize = 6;
 /// An outline that fills this part of the box around it is that box.
 const FULL: f64 = 0.999;
 
@@ -55,49 +51,6 @@ pub(super) fn complete(
         source,
         is_curved: false,
     }));
-    Ok(())
-}
-
-/// Makes facet lines of border lines that cross each other more often than there are such lines: they are a grid on
-/// which the pattern was drawn. As facet lines they yield to creases on them.
-pub(super) fn without_grid(
-    drawing: &mut Drawing,
-    tolerance: f64,
-    warnings: &mut Warnings,
-) -> Result<(), ImportError> {
-    let borders = Drawing {
-        points: drawing.points.clone(),
-        lines: drawing.lines.iter().copied().filter(|line| line.role == Role::Border).collect(),
-        sources: drawing.sources.clone(),
-    };
-    let of_border: BTreeSet<u32> = borders.lines.iter().map(|line| line.source).collect();
-    if of_border.len() < LEAST_GRID {
-        return Ok(());
-    }
-    let graph = planar_graph(&borders, tolerance, &mut Warnings::default())?;
-    let mut crossing: BTreeSet<u32> = BTreeSet::new();
-    let mut crossings = 0;
-    for lines in graph.lines_at() {
-        let mut sources: Vec<u32> =
-            lines.iter().map(|line| graph.lines[*line as usize].source).collect();
-        sources.sort_unstable();
-        // Lines that go on beyond the point.
-        let through = sources.chunk_by(|a, b| a == b).filter(|lines| lines.len() == 2);
-        let through: Vec<u32> = through.map(|lines| lines[0]).collect();
-        if through.len() > 1 {
-            crossings += 1;
-            crossing.extend(through);
-        }
-    }
-    if crossings <= of_border.len() {
-        return Ok(());
-    }
-    for line in &mut drawing.lines {
-        if line.role == Role::Border && crossing.contains(&line.source) {
-            line.role = Role::Facet;
-            warnings.add(WarningKind::InnerGrid, &drawing.sources[line.source as usize]);
-        }
-    }
     Ok(())
 }
 

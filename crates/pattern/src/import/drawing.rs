@@ -14,6 +14,8 @@ pub(super) enum Role {
     Valley,
     Free,
     Facet,
+    /// Drawn as border, but of the paper's grid: border where it is the edge of the sheet, nothing elsewhere.
+    Grid,
 }
 
 impl Role {
@@ -26,6 +28,7 @@ impl Role {
             Self::Valley => "valley",
             Self::Free => "free hinge",
             Self::Facet => "facet line",
+            Self::Grid => "grid line",
         }
     }
 
@@ -35,7 +38,7 @@ impl Role {
             Self::Border => Assignment::Border,
             Self::Mountain => Assignment::Mountain,
             Self::Valley => Assignment::Valley,
-            Self::Facet => Assignment::Facet,
+            Self::Facet | Self::Grid => Assignment::Facet,
             Self::Cut | Self::Free => Assignment::Free,
         }
     }

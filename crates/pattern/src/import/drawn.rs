@@ -8,7 +8,7 @@ use super::stroke::{Piece, Stroke};
 use super::warning::{WarningKind, Warnings};
 use super::{
     CURVE_TOLERANCE, CurvedFacets, ImportError, ImportOptions, ImportedPattern, LengthUnit,
-    MOST_LINES, MergeTolerance, border, pieces, plan_of, rulings, tolerance,
+    MOST_LINES, MergeTolerance, border, paper_grid, pieces, plan_of, rulings, tolerance,
 };
 
 /// A drawing farther from the origin than this, in its diagonals, is moved there, so that no digits are lost.
@@ -45,18 +45,19 @@ pub(super) fn imported(
         border::complete(&mut drawing, tolerance, drawn.page, &mut warnings)?;
     }
     let least = merge.length(diagonal, drawn.scale)?;
-    border::without_grid(&mut drawing, least, &mut warnings)?;
+    paper_grid::find(&mut drawing, least, &mut warnings)?;
     let names = drawn.strokes.into_iter().map(|stroke| stroke.names);
     let mut names: Vec<_> = names.collect();
     names.resize_with(drawing.sources.len(), Default::default);
     let has_curves = drawing.lines.iter().any(|line| line.is_curved);
     let mut plan = plan_of(drawing, merge, drawn.scale, true, &mut warnings)?;
+    plan = pieces::keep_creases_together(plan, &options.pieces, &mut warnings)?;
     if has_curves && options.curved_facets == CurvedFacets::Rulings {
         let tolerance = plan.mending.tolerance;
         rulings::end_on_borders(&mut plan, tolerance);
     }
     plan.has_rulings = options.curved_facets == CurvedFacets::Rulings;
-    pieces::keep_creases_together(&mut plan, &options.pieces, &mut warnings)?;
+    plan.mending.in_units_of_file(drawn.scale);
     let assembled = pieces::chosen(&plan, &options.pieces, &names, &mut warnings)?;
     let Assembled { sheet, targets, edge_lines, vertex_points } = assembled;
     let lines = edge_lines.into_iter();

@@ -41,6 +41,7 @@ mod open_cuts;
 mod options;
 mod orihime;
 mod oripa;
+mod paper_grid;
 mod pieces;
 mod plan;
 mod predicate;
@@ -87,7 +88,7 @@ const FAR: f64 = 1e3;
 /// How far from the origin a pattern may lie, in diagonals.
 const FARTHEST: f64 = 1e9;
 
-/// The facets of a drawing.
+/// The facets of a drawing, with what was mended in the units of its points.
 ///
 /// `scale`: how long its own unit is in the units of its points. `joins`: whether straight lines in pieces are joined.
 fn plan_of(
@@ -111,9 +112,7 @@ fn plan_of(
     if joins {
         graph.join_straight(graph.mending.tolerance, &drawing.sources, warnings);
     }
-    let mut plan = plan::plan(graph, drawing.sources, warnings)?;
-    plan.mending.in_units_of_file(scale);
-    Ok(plan)
+    plan::plan(graph, drawing.sources, warnings)
 }
 
 /// The diagonal of a pattern between two corners.

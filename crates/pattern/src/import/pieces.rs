@@ -6,7 +6,8 @@ use super::assemble::{Assembled, assemble};
 use super::drawing::{Line, Role};
 use super::names::Names;
 use super::open_cuts::{join, root};
-use super::plan::Plan;
+use super::plan::{self, Plan};
+use super::split::Graph;
 use super::warning::{WarningKind, Warnings};
 use super::{ImportError, Pieces, Source};
 use crate::{Edge, Sheet};
@@ -48,22 +49,22 @@ pub(super) fn chosen(
     assemble(&part, warnings)
 }
 
-/// Makes facet lines of the border lines inside the sheet, if as cuts they would leave the largest piece with less than
-/// half of the creases: they are a grid by which the pattern was drawn.
+/// Leaves out the border lines inside the sheet, or makes them facet lines where creases end on them, if as cuts they would leave the largest piece with less than half of the
+/// creases: they are a grid by which the pattern was drawn.
 ///
 /// # Errors
-/// Those of [`assemble`].
+/// Those of [`assemble`] and [`plan::plan`].
 pub(super) fn keep_creases_together(
-    plan: &mut Plan,
+    plan: Plan,
     wanted: &Pieces,
     warnings: &mut Warnings,
-) -> Result<(), ImportError> {
-    let inner = inner_borders(plan);
+) -> Result<Plan, ImportError> {
+    let inner = inner_borders(&plan);
     if inner.is_empty() || !matches!(wanted, Pieces::Main | Pieces::Largest) {
-        return Ok(());
+        return Ok(plan);
     }
-    let assembled = assemble(plan, &mut Warnings::default())?;
-    let pieces = PieceList::new(plan, &assembled);
+    let assembled = assemble(&plan, &mut Warnings::default())?;
+    let pieces = PieceList::new(&plan, &assembled);
     let largest = pieces.largest();
     let creases = assembled.sheet.edges.iter().filter(|edge| edge.is_crease() && edge.is_hinge());
     let facet = |edge: &Edge| edge.faces[0].map(|face| assembled.sheet.face_facets[face as usize]);
@@ -71,13 +72,17 @@ pub(super) fn keep_creases_together(
     let of_piece: Vec<Option<u32>> = of_piece.collect();
     let kept = of_piece.iter().filter(|piece| **piece == Some(largest)).count();
     if 2 * kept >= of_piece.len() {
-        return Ok(());
+        return Ok(plan);
     }
-    for line in plan.lines.iter_mut().filter(|line| inner.contains(&line.key())) {
-        line.role = Role::Facet;
-        warnings.add(WarningKind::InnerGrid, &plan.sources[line.source as usize]);
+    let Plan { points, origins, mut lines, sources, mending, .. } = plan;
+    for line in lines.iter_mut().filter(|line| inner.contains(&line.key())) {
+        line.role = Role::Grid;
+        warnings.add(WarningKind::InnerGrid, &sources[line.source as usize]);
     }
-    Ok(())
+    let mut graph = Graph { points, origins, lines, mending, lost: 0 };
+    graph.drop_grid(&sources, warnings);
+    graph.join_straight(graph.mending.tolerance, &sources, warnings);
+    plan::plan(graph, sources, warnings)
 }
 
 /// The ends of the border lines with facets on both sides.

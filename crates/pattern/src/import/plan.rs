@@ -69,7 +69,7 @@ pub(super) fn plan(
 
 /// Which faces belong to the sheet: those inside the border lines; where these bound nothing, or not all around, those
 /// that any line parts from the plane around everything.
-fn sheet_faces(graph: &Graph, faces: &Faces) -> Vec<bool> {
+pub(super) fn sheet_faces(graph: &Graph, faces: &Faces) -> Vec<bool> {
     let sides = |line: usize| [0, 1].map(|side| faces.face_of[2 * line + side]);
     let is_border = |line: usize| graph.lines[line].role == Role::Border;
     let by_border = Regions::new(graph, faces, is_border);

@@ -32,7 +32,8 @@ impl Graph {
         let mut is_dropped = vec![false; self.lines.len()];
         let mut ends: Vec<u32> =
             (0..self.points.len() as u32).filter(|&v| at[v as usize].len() == 1).collect();
-        self.lost += STRAY * ends.len();
+        let of_grid = |v: &&u32| self.lines[at[**v as usize][0] as usize].role == Role::Grid;
+        self.lost += STRAY * (ends.len() - ends.iter().filter(of_grid).count());
         while let Some(vertex) = ends.pop() {
             let &[index] = at[vertex as usize].as_slice() else {
                 continue;
@@ -43,7 +44,9 @@ impl Graph {
             }
             is_dropped[index as usize] = true;
             self.mending.drop(line, &self.points, sources);
-            warnings.add(WarningKind::Stray, &sources[line.source as usize]);
+            if line.role != Role::Grid {
+                warnings.add(WarningKind::Stray, &sources[line.source as usize]);
+            }
             for v in line.ends {
                 at[v as usize].retain(|&other| other != index);
                 if at[v as usize].len() == 1 {

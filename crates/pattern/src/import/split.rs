@@ -2,7 +2,7 @@
 
 use glam::DVec2;
 
-use super::drawing::{Drawing, Line};
+use super::drawing::{Drawing, Line, Role};
 use super::grid::Grid;
 use super::mending::Mending;
 use super::options::MOST_PIECES;
@@ -23,7 +23,7 @@ const EXACT: f64 = 1e-3;
 const MOST_PAIRS: u64 = 1_000_000_000;
 
 /// Lines that meet at their ends only, no two with the same ends.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(super) struct Graph {
     pub(super) points: Vec<DVec2>,
     /// The point of the drawing each point comes from; `None` for crossings.
@@ -241,6 +241,7 @@ impl Splitting<'_> {
         let mut kept: Vec<Line> = Vec::with_capacity(lines.len());
         for line in lines {
             match kept.last() {
+                Some(last) if last.key() == line.key() && line.role == Role::Grid => {}
                 Some(last) if last.key() == line.key() => {
                     self.lost += 1;
                     let is_same = last.role == line.role && last.target == line.target;

@@ -35,6 +35,7 @@ pub(super) fn mended(
 ) -> Result<Graph, ImportError> {
     let Attempt { mut graph, warnings: found, .. } = best(drawing, merge, diagonal, scale)?;
     warnings.append(found);
+    graph.drop_grid(&drawing.sources, warnings);
     graph.mending.chosen = matches!(merge, MergeTolerance::Chosen { .. });
     if !graph.lines.is_empty() {
         graph.mending.check(scale)?;

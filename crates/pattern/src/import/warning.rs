@@ -27,7 +27,8 @@ pub enum WarningKind {
     Flattened,
     /// Border lines with the sheet on both sides are cuts.
     InnerBorder,
-    /// Border lines inside the sheet that are a grid, as they cross each other or would part most creases, are facet lines.
+    /// Border lines inside the sheet that are a grid, as they cross each other or would part most creases, are left out or, if
+    /// creases end on them, facet lines.
     InnerGrid,
     /// Pieces that nothing joins with the one that is read are left out.
     OtherPiece,
@@ -92,7 +93,7 @@ impl WarningKind {
             }
             Self::InnerBorder => "made a cut, for it is a border with the sheet on both sides",
             Self::InnerGrid => {
-                "made a facet line, for border lines that cross each other or would cut most creases off are a grid"
+                "no border or cut inside the sheet, for border lines that cross each other or would cut most creases off are a grid"
             }
             Self::OtherPiece => {
                 "left out with its piece, for nothing joins it to the one read; pattern.piece chooses another, or all"

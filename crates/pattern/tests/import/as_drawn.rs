@@ -175,6 +175,12 @@ fn a_grid_in_the_colour_of_the_border_does_not_cut_the_creases_apart() {
     assert_eq!((count(&imported, 'M'), warned(&imported, WarningKind::InnerGrid)), (3, 1));
     assert_eq!(warned(&imported, WarningKind::OtherPiece), 0);
     assert_eq!(imported.euler_characteristic(), 1);
+    assert_eq!(count(&imported, 'F'), 13);
+    // No crease ends on it: it is nothing.
+    let imported = sheet(&(grid.to_owned() + "<path d=\"M0 0L50 100L100 0\" stroke=\"red\"/>"));
+    let found = ['M', 'F'].map(|letter| count(&imported, letter));
+    assert_eq!((found, warned(&imported, WarningKind::InnerGrid)), ([2, 0], 1));
+    assert_eq!(imported.mending.dropped, 0);
     // A grid all around, with creases on it, and the ends of its lines beyond it.
     let line = |k: i32| format!("<path d=\"M{0} -5V45M-5 {0}H45\" stroke=\"black\"/>", 10 * k);
     let lines = [0, 1, 2, 3, 4].map(line).concat();
@@ -183,8 +189,31 @@ fn a_grid_in_the_colour_of_the_border_does_not_cut_the_creases_apart() {
         single + "<path d=\"M20 0V40\" stroke=\"red\"/><path d=\"M0 0L40 40\" stroke=\"blue\"/>";
     let imported = read(&document("", &body));
     let found = ['M', 'V', 'B'].map(|letter| count(&imported, letter));
-    assert_eq!((found, imported.euler_characteristic()), ([4, 4, 16], 1));
+    assert_eq!((found, imported.euler_characteristic()), ([2, 2, 4], 1));
     assert_eq!(warned(&imported, WarningKind::InnerGrid), 10);
+}
+
+#[test]
+fn a_grid_that_goes_on_beyond_the_border_leaves_neither_lines_nor_paper() {
+    // The lower side lies a little off the grid, so that lines of the grid would cut slivers from the sheet.
+    let line = |k: i32| {
+        format!(
+            "<path d=\"M{0} -35V135\" stroke=\"black\"/><path d=\"M-35 {0}H135\" stroke=\"black\"/>",
+            20 * k
+        )
+    };
+    let grid = (-1..7).map(line).collect::<String>();
+    let sides = ["0 0V100", "0 100L100 100.4", "100 100.4V0", "100 0H0"];
+    let sides = sides.map(|side| format!("<path d=\"M{side}\" stroke=\"black\"/>")).concat();
+    let creases =
+        "<path d=\"M0 0L100 100.4\" stroke=\"red\"/><path d=\"M50 50.2L0 100\" stroke=\"blue\"/>";
+    for body in [grid.clone() + &sides + creases, sides.clone() + creases + &grid] {
+        let imported = read(&document("", &body));
+        let found = ['M', 'V', 'B', 'F'].map(|letter| count(&imported, letter));
+        assert_eq!((found, imported.sheet.facets.len()), ([2, 1, 4, 0], 3));
+        assert_eq!(warned(&imported, WarningKind::InnerGrid), 16);
+        assert_eq!(imported.mending.dropped, 0);
+    }
 }
 
 #[test]
