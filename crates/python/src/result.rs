@@ -363,6 +363,17 @@ impl Result {
         self.write_file(py, OutputChoice::Html, "motion.html", &path, settings)
     }
 
+    /// Write the frames for ParaView and PyVista: ``motion.pvd`` and the folder ``vtk`` into the folder `folder`, with the
+    /// fields strain_percent and facet_bending_deg.
+    ///
+    /// Returns
+    /// -------
+    /// list of str
+    ///     The names of the files.
+    fn write_vtk(&self, py: Python<'_>, folder: PathBuf) -> PyResult<Vec<String>> {
+        self.record(py, folder, vec!["vtk".to_owned()], None)
+    }
+
     /// The page of the motion in a sandboxed frame, for notebooks: no network, no extension.
     fn _repr_html_(&self, py: Python<'_>) -> PyResult<String> {
         let output = OutputChoice::Html;
