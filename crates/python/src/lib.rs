@@ -3,6 +3,7 @@
 //! It binds `foldmotion-study` and decides nothing itself. `foldmotion/__init__.py` gives its names to users.
 
 mod array;
+mod borrowed;
 mod document;
 mod error;
 mod motion;

@@ -5,10 +5,12 @@ use std::sync::{Arc, OnceLock};
 
 use foldmotion_pattern::Motion as NativeMotion;
 use foldmotion_study::{Folded, OpenedFile, OpenedMotion, Quantity, Study};
-use numpy::ndarray::{Array2, Array3, ArrayView3};
+use glam::DVec3;
+use numpy::ndarray::{Array2, Array3};
 use numpy::{PyArray1, PyArray2, PyArray3};
 use pyo3::prelude::*;
 
+use crate::borrowed::borrowed;
 use crate::error::bad_input;
 use crate::sheet;
 use crate::supervised::Supervision;
@@ -61,7 +63,7 @@ impl Motion {
         let motion = self.native();
         let mut buffer = Array3::zeros((motion.frames.len(), motion.sheet.vertices.len(), 3));
         let all = motion.frames.iter().flat_map(|frame| &frame.positions);
-        let coordinates = all.flat_map(|position| position.to_array());
+        let coordinates = all.flat_map(DVec3::to_array);
         buffer.iter_mut().zip(coordinates).for_each(|(to, from)| *to = from);
         buffer
     }
@@ -89,26 +91,14 @@ impl Motion {
 
     /// The positions of all vertices in all frames, (frames, vertices, 3) ndarray of float64 in the unit of length.
     #[getter]
-    fn positions<'py>(slf: Bound<'py, Self>) -> PyResult<Bound<'py, PyArray3<f64>>> {
-        let this = slf.get();
-        let py = slf.py();
-        let buffer: ArrayView3<'_, f64> =
-            py.detach(|| this.positions.get_or_init(|| this.buffer())).view();
-        let owner = slf.clone().into_any();
-        // SAFETY: the buffer is never changed once it is made, and it lives as long as its owner, which the array keeps.
-        #[expect(
-            unsafe_code,
-            reason = "an array that borrows its numbers, so that they are not copied"
-        )]
-        let array = unsafe { PyArray3::borrow_from_array(&buffer, owner) };
-        read_only(array.as_any())?;
-        Ok(array)
+    fn positions<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyArray3<f64>>> {
+        borrowed(slf, |this| this.positions.get_or_init(|| this.buffer()))
     }
 
     /// The fold angle of each edge in each frame, (frames, edges) ndarray of float64 in degrees: valley positive, mountain
     /// negative, NaN at the border.
     #[getter]
-    fn fold_angles<'py>(slf: Bound<'py, Self>) -> PyResult<Bound<'py, PyArray2<f64>>> {
+    fn fold_angles<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyArray2<f64>>> {
         let table = |this: &Self| {
             let sheet = &this.native().sheet;
             let frames = this.native().frames.iter();
@@ -121,7 +111,7 @@ impl Motion {
     /// The strain of each triangle in each frame, (frames, faces) ndarray of float64: the largest \|l / l₀ − 1\| of its
     /// edges, with l₀ the length in the crease pattern, in percent; NaN in a file that is not a flat crease pattern.
     #[getter]
-    fn strain<'py>(slf: Bound<'py, Self>) -> PyResult<Bound<'py, PyArray2<f64>>> {
+    fn strain<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyArray2<f64>>> {
         let table = |this: &Self| {
             let mut strain = this.of_triangles(Quantity::Strain);
             if let Origin::File { motion, .. } = &this.origin
@@ -137,7 +127,7 @@ impl Motion {
     /// The bend of the facet of each triangle in each frame, (frames, faces) ndarray of float64 in degrees: the largest
     /// \|fold angle\| of its edges inside the facet.
     #[getter]
-    fn bending<'py>(slf: Bound<'py, Self>) -> PyResult<Bound<'py, PyArray2<f64>>> {
+    fn bending<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyArray2<f64>>> {
         borrowed(slf, |this| this.bending.get_or_init(|| this.of_triangles(Quantity::Bending)))
     }
 
@@ -174,28 +164,6 @@ impl Motion {
         let (frames, vertices) = (motion.frames.len(), motion.sheet.vertices.len());
         format!("<foldmotion.Motion {frames} frames, {vertices} vertices>")
     }
-}
-
-/// An array that borrows what `table` makes once.
-fn borrowed<'py>(
-    slf: Bound<'py, Motion>,
-    table: impl for<'a> Fn(&'a Motion) -> &'a Array2<f64> + Sync,
-) -> PyResult<Bound<'py, PyArray2<f64>>> {
-    let this = slf.get();
-    let view = slf.py().detach(|| table(this)).view();
-    let owner = slf.clone().into_any();
-    // SAFETY: as for the positions: what a `OnceLock` of the owner holds is never changed.
-    #[expect(
-        unsafe_code,
-        reason = "an array that borrows its numbers, so that they are not copied"
-    )]
-    let array = unsafe { PyArray2::borrow_from_array(&view, owner) };
-    read_only(array.as_any())?;
-    Ok(array)
-}
-
-fn read_only(array: &Bound<'_, PyAny>) -> PyResult<()> {
-    array.getattr("flags")?.setattr("writeable", false)
 }
 
 /// Read the motion of a FOLD file with frames.

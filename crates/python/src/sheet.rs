@@ -9,12 +9,12 @@ use pyo3::types::PyList;
 
 /// Points in the plane as an array (n, 2).
 pub(crate) fn plane<'py>(py: Python<'py>, points: &[DVec2]) -> Bound<'py, PyArray2<f64>> {
-    table(py, points.iter().map(|p| p.to_array()))
+    table(py, points.iter().map(DVec2::to_array))
 }
 
 /// Points in space as an array (n, 3).
 pub(crate) fn space<'py>(py: Python<'py>, points: &[DVec3]) -> Bound<'py, PyArray2<f64>> {
-    table(py, points.iter().map(|p| p.to_array()))
+    table(py, points.iter().map(DVec3::to_array))
 }
 
 /// The vertices of each triangle, (k, 3).
@@ -46,10 +46,10 @@ pub(crate) fn fold_angles(sheet: &Sheet, positions: &[DVec3]) -> Vec<f64> {
 }
 
 /// Rows of `N` values as an array.
-fn table<'py, T: numpy::Element + Copy, const N: usize>(
-    py: Python<'py>,
+fn table<T: numpy::Element + Copy, const N: usize>(
+    py: Python<'_>,
     rows: impl Iterator<Item = [T; N]>,
-) -> Bound<'py, PyArray2<T>> {
+) -> Bound<'_, PyArray2<T>> {
     let rows: Vec<[T; N]> = rows.collect();
     Array2::from(rows).into_pyarray(py)
 }

@@ -18,7 +18,8 @@ def test_positions_reach_numpy_without_a_copy(small: foldmotion.Result) -> None:
     assert address(first) == address(second)
     assert np.shares_memory(first, second)
     assert not first.flags.owndata and not first.flags.writeable and first.flags.c_contiguous
-    assert first.base is small.motion
+    owner: object = small.motion
+    assert first.base is owner
     # A slice of a frame, and the same motion by another way.
     assert address(small.motion.positions[3]) == address(first) + 3 * first.strides[0]
 

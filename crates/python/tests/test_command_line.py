@@ -8,6 +8,7 @@ import signal
 import subprocess
 import sys
 import time
+from typing import Any
 
 import foldmotion
 import pytest
@@ -19,8 +20,8 @@ def run(*arguments: object) -> subprocess.CompletedProcess[str]:
     return subprocess.run([*PROGRAM, *map(str, arguments)], capture_output=True, text=True, check=False)
 
 
-def without_timings(report: str) -> dict[str, object]:
-    values = json.loads(report)
+def without_timings(report: str) -> dict[str, Any]:
+    values: dict[str, Any] = json.loads(report)
     for key in ("seconds", "device"):
         values["engine"].pop(key)
     values.pop("seconds")

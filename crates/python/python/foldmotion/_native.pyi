@@ -18,6 +18,7 @@ _Progress: TypeAlias = Callable[[str, float], object]
 _Outcome: TypeAlias = Literal["folded", "jammed", "stopped", "not-converged", "collides", "undecided"]
 _Verdict: TypeAlias = Literal["free", "touching", "penetrating", "undecided"]
 
+__all__: list[str]
 __version__: str
 
 @final
