@@ -27,9 +27,9 @@ def test_the_python_of_a_page_runs(
         exec(compile(block, f"{page}, block {number + 1}", "exec"), names)
 
 
-def test_the_example_certifies_the_shelter(tmp_path: pathlib.Path) -> None:
+def test_the_example_certifies_a_sheet_and_films_it(tmp_path: pathlib.Path) -> None:
     example = ROOT / "crates/python/examples/shelter.py"
-    scene = ROOT / "scenes/shelter-sii.toml"
+    scene = ROOT / "scenes/one-unit.toml"
     ran = subprocess.run(
         [sys.executable, example, scene, tmp_path / "out"], capture_output=True, text=True, check=True
     )

@@ -18,7 +18,23 @@ _Progress: TypeAlias = Callable[[str, float], object]
 _Outcome: TypeAlias = Literal["folded", "jammed", "stopped", "not-converged", "collides", "undecided"]
 _Verdict: TypeAlias = Literal["free", "touching", "penetrating", "undecided"]
 
-__all__: list[str]
+__all__ = [
+    "Model",
+    "Motion",
+    "Pattern",
+    "Result",
+    "Scene",
+    "Series",
+    "Study",
+    "Verification",
+    "__version__",
+    "check",
+    "fold_pattern",
+    "main",
+    "models",
+    "read_fold",
+    "verify",
+]
 __version__: str
 
 @final
