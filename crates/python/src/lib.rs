@@ -6,11 +6,13 @@ mod array;
 mod borrowed;
 mod document;
 mod error;
+mod model;
 mod motion;
 mod pattern;
 mod pattern_arrays;
 mod proof;
 mod result;
+mod run;
 mod scene;
 mod series;
 mod sheet;
@@ -26,17 +28,17 @@ fn native(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add("__version__", foldmotion_study::VERSION)?;
     module.add_class::<scene::Scene>()?;
     module.add_class::<study::Study>()?;
-    module.add_class::<study::Model>()?;
+    module.add_class::<model::Model>()?;
     module.add_class::<pattern::Pattern>()?;
     module.add_class::<motion::Motion>()?;
     module.add_class::<result::Result>()?;
     module.add_class::<series::Series>()?;
     module.add_class::<proof::Verification>()?;
-    module.add_function(wrap_pyfunction!(study::models, module)?)?;
+    module.add_function(wrap_pyfunction!(model::models, module)?)?;
     module.add_function(wrap_pyfunction!(proof::check, module)?)?;
     module.add_function(wrap_pyfunction!(proof::verify, module)?)?;
     module.add_function(wrap_pyfunction!(motion::read_fold, module)?)?;
-    module.add_function(wrap_pyfunction!(result::fold_pattern, module)?)?;
+    module.add_function(wrap_pyfunction!(run::fold_pattern, module)?)?;
     module.add_function(wrap_pyfunction!(main, module)?)
 }
 

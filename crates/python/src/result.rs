@@ -19,7 +19,6 @@ use crate::pattern::Pattern;
 use crate::scene::Scene;
 use crate::series::Series;
 use crate::sheet;
-use crate::study::Study;
 use crate::supervised::Supervision;
 use crate::value::table;
 
@@ -391,42 +390,4 @@ impl Result {
         let frames = self.folded.motion.frames.len();
         format!("<foldmotion.Result {title}: {headline}, {}, {frames} frames>", self.verdict())
     }
-}
-
-/// Fold a crease pattern given as a file or as arrays: a short form of :meth:`Scene.from_pattern`, resolve and run.
-///
-/// Parameters
-/// ----------
-/// pattern, edges, assignment, fold_angles
-///     As in :meth:`Scene.from_pattern`.
-/// settings : dict, optional
-///     Dotted keys of the scene with their values, as in :meth:`Scene.replace`.
-/// progress, threads, check
-///     As in :meth:`Study.run`.
-///
-/// Returns
-/// -------
-/// Result
-#[pyfunction]
-#[pyo3(signature = (
-    pattern, edges=None, assignment=None, *, fold_angles=None, settings=None, progress=None, threads=None, check=false
-))]
-#[expect(clippy::too_many_arguments, reason = "each is a keyword of the function in Python")]
-pub(crate) fn fold_pattern(
-    py: Python<'_>,
-    pattern: &Bound<'_, PyAny>,
-    edges: Option<&Bound<'_, PyAny>>,
-    assignment: Option<&Bound<'_, PyAny>>,
-    fold_angles: Option<&Bound<'_, PyAny>>,
-    settings: Option<&Bound<'_, PyDict>>,
-    progress: Option<Bound<'_, PyAny>>,
-    threads: Option<usize>,
-    check: bool,
-) -> PyResult<Py<Result>> {
-    let mut scene = Scene::from_pattern(py, pattern, edges, assignment, fold_angles)?;
-    if let Some(settings) = settings {
-        scene = scene.replace(py, settings)?;
-    }
-    let study: Study = scene.resolve(py)?;
-    study.run(py, progress, threads, check)
 }

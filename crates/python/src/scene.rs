@@ -2,13 +2,12 @@
 
 use std::path::PathBuf;
 
-use foldmotion_study::{SceneSource, Study as NativeStudy};
+use foldmotion_study::SceneSource;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
 use crate::error::{exception, failed};
 use crate::pattern_arrays::PatternArrays;
-use crate::study::Study;
 use crate::value::{table, value};
 
 /// What is folded and how, as in a scene file.
@@ -26,6 +25,10 @@ pub(crate) struct Scene {
 impl Scene {
     pub(crate) fn new(source: SceneSource) -> Self {
         Self { source }
+    }
+
+    pub(crate) fn source(&self) -> &SceneSource {
+        &self.source
     }
 }
 
@@ -173,23 +176,6 @@ impl Scene {
     ///     The text it was made from, with its comments; after :meth:`replace` all its keys, without comments.
     fn to_toml(&self, py: Python<'_>) -> PyResult<String> {
         self.source.to_toml().map_err(|e| exception(py, &e))
-    }
-
-    /// Resolve the scene: profile, division, sheet, mechanical model and schedule.
-    ///
-    /// Returns
-    /// -------
-    /// Study
-    ///
-    /// Raises
-    /// ------
-    /// BadInput
-    ///     The first unusable value, with file, line, key, value and remedy.
-    pub(crate) fn resolve(&self, py: Python<'_>) -> PyResult<Study> {
-        let source = &self.source;
-        let study = py.detach(|| NativeStudy::resolve(source));
-        let study = study.map_err(|e| exception(py, &e))?;
-        Ok(Study::new(source.clone(), study))
     }
 
     fn __repr__(&self) -> String {

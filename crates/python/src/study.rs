@@ -1,18 +1,16 @@
-//! `Study`: a scene with everything resolved, and the built-in profiles.
+//! `Study`: a scene with everything resolved.
 
 use std::sync::Arc;
 
-use foldmotion_study::{ProfileModel, SceneSource, Study as NativeStudy, UnitStudy};
+use foldmotion_study::{SceneSource, Study as NativeStudy, UnitStudy};
 use glam::DVec2;
 use numpy::{PyArray1, PyArray2};
 use pyo3::prelude::*;
 
-use crate::error::bad_input;
+use crate::error::{bad_input, exception};
 use crate::pattern::Pattern;
-use crate::result::Result;
 use crate::scene::Scene;
 use crate::sheet;
-use crate::supervised::Supervision;
 
 /// A scene with everything resolved, ready to run.
 ///
@@ -28,11 +26,12 @@ impl Study {
         Self { source, study: Arc::new(study) }
     }
 
-    /// Folds and checks under supervision.
-    pub(crate) fn fold(&self, py: Python<'_>, supervision: &Supervision) -> PyResult<Result> {
-        let study = &self.study;
-        let folded = supervision.run(py, |progress| study.compute(&progress))?;
-        Result::new(py, self.source.clone(), Arc::clone(study), folded)
+    pub(crate) fn source(&self) -> &SceneSource {
+        &self.source
+    }
+
+    pub(crate) fn native(&self) -> &Arc<NativeStudy> {
+        &self.study
     }
 
     fn units(&self) -> Option<&UnitStudy> {
@@ -142,49 +141,6 @@ impl Study {
         Some(PyArray1::from_slice(py, &self.study.subject.closed_form()?.extents))
     }
 
-    /// Fold the sheet and prove whether it passes through itself; writes no files.
-    ///
-    /// A jam, a stop and a penetration are results: :attr:`Result.outcome` names them.
-    ///
-    /// Parameters
-    /// ----------
-    /// progress : callable, optional
-    ///     Called with the name of a phase and the share of it that is done, from 0 to 1, up to 20 times a second, in the
-    ///     calling thread. If it returns ``False`` the run stops; what it raises is raised here.
-    /// threads : int, optional
-    ///     The number of threads, 1 to 1024. Default: one for each core. The motion is the same for any number.
-    /// check : bool, optional
-    ///     Whether to call :meth:`Result.raise_for_outcome`.
-    ///
-    /// Returns
-    /// -------
-    /// Result
-    ///
-    /// Raises
-    /// ------
-    /// KeyboardInterrupt
-    ///     Ctrl-C was pressed.
-    /// Interrupted
-    ///     `progress` returned ``False``.
-    /// RunFailed
-    ///     The engine or the check failed.
-    /// OutcomeError
-    ///     With ``check=True``: the motion jammed, stopped, did not converge or stayed undecided.
-    #[pyo3(signature = (*, progress=None, threads=None, check=false))]
-    pub(crate) fn run(
-        &self,
-        py: Python<'_>,
-        progress: Option<Bound<'_, PyAny>>,
-        threads: Option<usize>,
-        check: bool,
-    ) -> PyResult<Py<Result>> {
-        let result = Py::new(py, self.fold(py, &Supervision::new(py, progress, threads)?)?)?;
-        if check {
-            result.bind(py).call_method0("raise_for_outcome")?;
-        }
-        Ok(result)
-    }
-
     fn __repr__(&self) -> String {
         let sheet = self.study.subject.sheet();
         let (vertices, faces) = (sheet.vertices.len(), sheet.faces.len());
@@ -192,50 +148,22 @@ impl Study {
     }
 }
 
-/// A built-in profile.
-#[pyclass(frozen, get_all, module = "foldmotion")]
-pub(crate) struct Model {
-    /// The name in scenes.
-    name: &'static str,
-    /// A short description.
-    title: &'static str,
-    /// Whether the profile is closed.
-    is_closed: bool,
-    /// The number of rows.
-    rows: usize,
-    /// The number of columns in the cases E, T, and S or SII.
-    columns: (usize, usize, usize),
-    /// The source of its shape.
-    source: &'static str,
-}
-
-impl From<&ProfileModel> for Model {
-    fn from(model: &ProfileModel) -> Self {
-        let columns = model.columns;
-        Self {
-            name: model.name,
-            title: model.title,
-            is_closed: model.is_closed(),
-            rows: model.rows,
-            columns: (columns.e, columns.t, columns.s),
-            source: model.source,
-        }
-    }
-}
-
 #[pymethods]
-impl Model {
-    fn __repr__(&self) -> String {
-        format!("<foldmotion.Model {}>", self.name)
+impl Scene {
+    /// Resolve the scene: profile, division, sheet, mechanical model and schedule.
+    ///
+    /// Returns
+    /// -------
+    /// Study
+    ///
+    /// Raises
+    /// ------
+    /// BadInput
+    ///     The first unusable value, with file, line, key, value and remedy.
+    pub(crate) fn resolve(&self, py: Python<'_>) -> PyResult<Study> {
+        let source = self.source();
+        let study = py.detach(|| NativeStudy::resolve(source));
+        let study = study.map_err(|e| exception(py, &e))?;
+        Ok(Study::new(source.clone(), study))
     }
-}
-
-/// The built-in profiles.
-///
-/// Returns
-/// -------
-/// list of Model
-#[pyfunction]
-pub(crate) fn models() -> Vec<Model> {
-    foldmotion_study::models().iter().map(Model::from).collect()
 }

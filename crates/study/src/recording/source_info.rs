@@ -82,7 +82,7 @@ impl SourceInfo {
         let text = embedded(&bytes).ok_or_else(|| {
             error(
                 "the file has no source information, which gif, mp4, png, svg, pdf, glb, obj and html files of foldmotion have; for \
-                 an stl or vtk file, use the obj or another file next to it"
+                 an stl file, use the obj or another file next to it"
                     .to_owned(),
             )
         })?;
