@@ -134,6 +134,22 @@ def test_every_kind_of_file_is_written(small: foldmotion.Result, tmp_path: pathl
     assert set(names) == {"motion.pvd", *(f"vtk/{n:04}.vtp" for n in range(1, len(small.motion) + 1))}
 
 
+def test_frames_of_a_longer_motion_are_not_left_beside_a_shorter_one(
+    small: foldmotion.Result, tmp_path: pathlib.Path
+) -> None:
+    shorter = small.scene.replace({"motion.frames": 4}).resolve().run()
+    assert len(shorter.motion) < len(small.motion)
+    (tmp_path / "vtk").mkdir()
+    (tmp_path / "vtk" / "mine.txt").write_text("mine")
+    small.write_vtk(tmp_path)
+    names = shorter.write_vtk(tmp_path)
+    left = {str(path.relative_to(tmp_path)) for path in tmp_path.rglob("*.[pv]*") if path.is_file()}
+    assert left == set(names)
+    assert (tmp_path / "vtk" / "mine.txt").read_text() == "mine"
+    files = ElementTree.parse(tmp_path / "motion.pvd").getroot().findall("./Collection/DataSet")
+    assert [float(file.attrib["timestep"]) for file in files] == shorter.motion.times.tolist()
+
+
 def test_series_are_taken_over_by_three_libraries(small: foldmotion.Result) -> None:
     series, motion = small.series(), small.motion
     pyarrow = pytest.importorskip("pyarrow")
