@@ -10,7 +10,7 @@ use crate::settings::Colour;
 use crate::view3d::OrbitCamera;
 
 /// The outputs that the dialog offers, with their labels.
-const OUTPUTS: [(OutputChoice, &str); 10] = [
+const OUTPUTS: [(OutputChoice, &str); 9] = [
     (OutputChoice::Gif, "film, GIF"),
     (OutputChoice::Mp4, "film, MP4"),
     (OutputChoice::Png, "film frames, PNG"),
@@ -20,7 +20,6 @@ const OUTPUTS: [(OutputChoice, &str); 10] = [
     (OutputChoice::Obj, "3D state, OBJ"),
     (OutputChoice::Stl, "3D state, STL"),
     (OutputChoice::Html, "web page, HTML"),
-    (OutputChoice::Vtk, "frames with strain and bending, VTK"),
 ];
 
 #[derive(Debug, Clone, PartialEq)]
