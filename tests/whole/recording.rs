@@ -17,7 +17,7 @@ const SMALL: [&str; 5] = [
     "motion.frames=20",
 ];
 
-const ALL: &str = "record.outputs=[\"fold\", \"gif\", \"csv\", \"mp4\", \"png\", \"svg\", \"pdf\", \"glb\", \"obj\", \"stl\", \"html\"]";
+const ALL: &str = "record.outputs=[\"fold\", \"gif\", \"csv\", \"mp4\", \"png\", \"svg\", \"pdf\", \"glb\", \"obj\", \"stl\", \"html\", \"vtk\"]";
 
 fn run(folder: &Path, set: &[&str]) -> Report {
     let scene = Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenes/one-unit.toml");

@@ -34,7 +34,7 @@ pub(crate) enum Command {
     /// Make films, figures and 3D files of the motion in a FOLD file
     ///
     /// Writes motion.gif, motion.mp4, frames/0001.png and so on, figure.svg and figure.pdf (states side by side),
-    /// motion.glb, state-0.5.obj and state-0.5.stl. If the folder of the motion holds its certificate.json, the first
+    /// motion.glb, state-0.5.obj, state-0.5.stl, and motion.pvd with vtk/0001.vtp and so on. If the folder of the motion holds its certificate.json, the first
     /// penetration is marked. Other files in the folder are kept.
     ///
     /// Exit status: 0 done, 2 bad input, 3 the files could not be written or interrupted.

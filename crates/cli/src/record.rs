@@ -26,7 +26,7 @@ pub(crate) struct RecordArguments {
     /// motion file has moved, specify it as MOTION
     #[arg(long, value_name = "FILE", conflicts_with_all = FLAGS)]
     pub(crate) again: Option<PathBuf>,
-    /// Kinds of files to write, separated by commas: gif, mp4, png, svg, pdf, glb, obj, stl, html. Default: gif
+    /// Kinds of files to write, separated by commas: gif, mp4, png, svg, pdf, glb, obj, stl, html, vtk. Default: gif
     #[arg(long, value_delimiter = ',', value_name = "LIST", value_parser = parse_output)]
     pub(crate) outputs: Option<Vec<OutputChoice>>,
     #[arg(
@@ -140,7 +140,7 @@ fn choice<T: Clone + Send + Sync + 'static>(
 fn parse_output(text: &str) -> Result<OutputChoice, String> {
     let mut all = OutputChoice::ALL.into_iter();
     all.find(|output| output.name() == text)
-        .ok_or_else(|| "expected gif, mp4, png, svg, pdf, glb, obj, stl or html".to_owned())
+        .ok_or_else(|| "expected gif, mp4, png, svg, pdf, glb, obj, stl, html or vtk".to_owned())
 }
 
 fn parse_size(text: &str) -> Result<[i64; 2], String> {

@@ -3,7 +3,8 @@
 //! A [`Camera`] projects the sheet in parallel, so that papers get equal scales. A [`Surface`] is the projected sheet
 //! and answers which triangle is in front at a point of the screen; the layer order decides between triangles that
 //! coincide. [`picture`] draws one state from it, [`film()`] a whole motion into every [`FilmWriter`] given: [`Gif`],
-//! [`Mp4`], [`Frames`]. [`glb()`], [`obj()`] and [`stl()`] carry the sheet into 3D programs, [`page()`] into browsers. A
+//! [`Mp4`], [`Frames`]. [`glb()`], [`obj()`] and [`stl()`] carry the sheet into 3D programs, [`vtp()`] and [`pvd()`] into
+//! ParaView, [`page()`] into browsers. A
 //! [`Drawing`] puts pictures beside crease patterns and words, as SVG and PNG.
 //!
 //! Screen coordinates are pixels, x to the right, y down, depth towards the viewer in pixels too. Colours are sRGB
@@ -67,6 +68,7 @@ mod palette;
 mod paper;
 mod pixel;
 mod plots;
+mod pvd;
 mod raster;
 mod ring;
 mod screen_face;
@@ -78,6 +80,7 @@ mod stl;
 mod surface;
 mod values;
 mod visible;
+mod vtp;
 
 pub use self::camera::{Camera, View};
 pub use self::colour_map::colour_of;
@@ -101,6 +104,7 @@ pub use self::page::{Page, PageOptions, page};
 pub use self::palette::Palette;
 pub use self::paper::Paper;
 pub use self::plots::{Curve, Panel, plots};
+pub use self::pvd::pvd;
 pub use self::raster::picture;
 pub use self::shade::Style;
 pub use self::solid::{Solid, solid, surface_of};
@@ -108,3 +112,4 @@ pub use self::stl::stl;
 pub use self::surface::{Candidate, Surface, TIE_TOLERANCE};
 pub use self::values::Values;
 pub use self::visible::{Visible, VisibleArea, VisibleLine};
+pub use self::vtp::{Field, vtp};

@@ -193,6 +193,16 @@ impl PatternStudy {
         Ok(Some(folder.join(CLASHES_SVG)))
     }
 
+    /// The whole pattern as SVG: what [`Self::write`] writes as `pattern.svg`.
+    ///
+    /// # Errors
+    /// [`StudyError::Cut`].
+    pub fn svg(&self, options: &PatternOptions) -> Result<String, StudyError> {
+        let lines = self.line_options(options);
+        let pattern = CutPattern::new(&self.subject.on_paper(), self.subject.end_angles(), &lines)?;
+        Ok(pattern.whole().svg())
+    }
+
     /// Writes pattern.svg, pattern.dxf and pattern.fold, and pattern-ROW-COLUMN.svg and .dxf for pages, into a folder; of the
     /// crease pattern of a file also folded.fold and folded.svg, its flat state, if an order of its layers is proved.
     ///

@@ -53,6 +53,8 @@ pub struct Folded {
     /// Seconds of all runs of the engine.
     pub(crate) engine_seconds: f64,
     pub(crate) check_seconds: f64,
+    /// The number of threads that computed it.
+    pub(crate) threads: usize,
 }
 
 impl Folded {

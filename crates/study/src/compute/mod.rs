@@ -174,6 +174,7 @@ impl Study {
             findings: checked_run.findings,
             engine_seconds: seconds.engine,
             check_seconds: seconds.check,
+            threads: rayon::current_num_threads(),
         }
     }
 

@@ -13,6 +13,7 @@ mod reproduce;
 mod run_files;
 mod source_info;
 mod space;
+mod vtk;
 
 use foldmotion_pattern::Motion;
 use foldmotion_record::{Marks, Values};
@@ -65,6 +66,7 @@ impl Recorder<'_> {
         require_progress(progress)?;
         self.page(results)?;
         require_progress(progress)?;
+        self.vtk(results, progress)?;
         self.films(values.as_ref(), results, progress)
     }
 

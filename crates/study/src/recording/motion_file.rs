@@ -14,7 +14,7 @@ use crate::certificate::statement::claim;
 use crate::certificate::verify_file::read_certificate;
 use crate::resolve::input::{Input, printable};
 use crate::resolve::recording::recording as resolved;
-use crate::results::{CERTIFICATE, Command, Destination, Published, Results, is_picture};
+use crate::results::{CERTIFICATE, Command, Destination, Published, Results};
 use crate::scene::{ColourChoice, OutputChoice, RecordScene};
 use crate::{Phase, Progress};
 use crate::{Scene, SceneSource, StudyError, input_file};
@@ -64,17 +64,15 @@ pub(super) fn open_record(
 }
 
 /// Moves the files recorded from the motion `sha256` into the output folder; returns their names and what happened to other
-/// files. Pictures of an earlier film are removed, because a longer film would leave some; other files are kept.
+/// files. Numbered files of an earlier recording are removed, because a longer one would leave some; other files are kept.
 pub(super) fn publish_record(
     mut results: Results,
     recording: &Recording,
     sha256: &str,
 ) -> Result<(Vec<String>, Published), StudyError> {
-    let has_pictures = recording.has(OutputChoice::Png);
     let skipped = results.skip_conflicts();
     let files = results.written().to_vec();
-    let published =
-        results.publish(Some(sha256), &|file| has_pictures && is_picture(&file.name))?;
+    let published = results.publish(Some(sha256), &|file| recording.replaces(&file.name))?;
     let published = Published { skipped, others: Vec::new(), ..published };
     Ok((files, published))
 }
@@ -88,7 +86,7 @@ pub(super) fn recording(record: &RecordScene) -> Result<Recording, StudyError> {
     let source = SceneSource::from_flags(&record);
     if let Some(output) = refused {
         let message = format!(
-            "{} is written only by running a scene (foldmotion run); a motion can be recorded as gif, mp4, png, svg, pdf, glb, obj, stl or html",
+            "{} is written only by running a scene (foldmotion run); a motion can be recorded as gif, mp4, png, svg, pdf, glb, obj, stl, html or vtk",
             output.name()
         );
         return Err(source.value_error("record.outputs", message));

@@ -3,9 +3,10 @@
 use foldmotion_record::{FilmOptions, Playback};
 
 use super::models::state_name;
+use super::vtk::COLLECTION;
 use crate::Recording;
 use crate::resolve::recording::STATES;
-use crate::results::{CERTIFICATE, FRAMES, MOTION};
+use crate::results::{CERTIFICATE, FRAMES, MOTION, is_picture, is_vtk_frame};
 use crate::scene::OutputChoice;
 
 impl Recording {
@@ -21,11 +22,18 @@ impl Recording {
                 name.strip_prefix("figure.") == Some(output.name())
             }
             OutputChoice::Png => picture_number(name).is_some_and(|n| n <= pictures(&self.film)),
+            OutputChoice::Vtk => name == COLLECTION || is_vtk_frame(name),
             OutputChoice::Obj | OutputChoice::Stl => {
                 let times = self.at.as_deref().unwrap_or(&STATES);
                 times.iter().any(|&time| state_name(time, output) == name)
             }
         })
+    }
+
+    /// Whether `name` is numbered and of an output that numbers its files: of an earlier recording, some would be left.
+    pub(crate) fn replaces(&self, name: &str) -> bool {
+        self.has(OutputChoice::Png) && is_picture(name)
+            || self.has(OutputChoice::Vtk) && is_vtk_frame(name)
     }
 }
 

@@ -1,6 +1,7 @@
 //! The files of a run, except its report.
 
-use std::io::{self, Write};
+use std::fs::File;
+use std::io::{self, BufWriter, Write};
 use std::path::Path;
 
 use foldmotion_pattern::{FoldHeader, Motion};
@@ -97,6 +98,19 @@ impl Study {
         let mut out = HashedWriter::new(out);
         folded.motion.write_fold(&header, &mut out)?;
         Ok(out.digest())
+    }
+
+    /// Writes the motion of `folded` as the FOLD file `path`, with the bytes of a run's `motion.fold`.
+    ///
+    /// # Errors
+    /// [`StudyError::Output`].
+    pub fn write_motion(&self, folded: &Folded, path: &Path) -> Result<(), StudyError> {
+        let write = || {
+            let mut out = BufWriter::new(File::create(path)?);
+            self.write_fold(folded, &mut out)?;
+            out.flush()
+        };
+        write().map_err(|e| write_error(path.parent().unwrap_or(Path::new("")), MOTION, e))
     }
 
     /// The SHA-256 of the motion file of `folded`.

@@ -26,6 +26,10 @@ const LIBRARY: u64 = 1_000_000;
 const STL: u64 = 50;
 const STL_HEADER: u64 = 84;
 
+/// Bytes of a VTP file without its arrays, and of a triangle in it: three corners, an end, a facet and two values as base64.
+const VTK_FILE: u64 = 1500;
+const VTK_FACE: u64 = 72;
+
 /// Bytes of the source information in a file.
 const ORIGIN: u64 = 4_000;
 
@@ -62,6 +66,9 @@ impl Recording {
                 states * (ORIGIN + plates * (vertices + OBJ[1] * faces))
             }
             OutputChoice::Stl => states * (STL_HEADER + plates * STL * faces),
+            OutputChoice::Vtk => {
+                frames as u64 * (VTK_FILE + 32 * sheet.vertices.len() as u64 + VTK_FACE * faces)
+            }
             OutputChoice::Html => {
                 // The motion file inside is compressed to a third and encoded in base 64.
                 Motion::fold_file_size(sheet, frames) / 2 + LIBRARY + 24 * faces * frames as u64

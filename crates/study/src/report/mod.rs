@@ -186,7 +186,7 @@ impl Study {
                 final_gap: computed.gap_reached,
                 steps: computed.steps,
                 seconds: folded.engine_seconds,
-                threads: rayon::current_num_threads(),
+                threads: folded.threads,
                 device: computed.device.clone(),
                 instruction_set: foldmotion_solver::dynamic::instruction_set(),
             },

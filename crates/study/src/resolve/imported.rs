@@ -151,7 +151,7 @@ fn read_pattern(input: &Input<'_>, scene: &PatternScene) -> Result<ImportedPatte
         curved_facets: scene.curved_facets.unwrap_or_default(),
         pieces: pieces(scene.piece.as_deref()),
     };
-    let bytes = input_file::read(&path, LARGEST_IMPORT_FILE as u64)?;
+    let bytes = input.source.read_pattern(&path)?;
     let extension = path.extension().and_then(|ending| ending.to_str());
     let imported = import_pattern(&bytes, extension, &options);
     imported.map_err(|error| match error {

@@ -10,7 +10,9 @@ use crate::StudyError;
 pub use self::abandoned::process_may_exist;
 pub use self::destination::Destination;
 pub(crate) use self::manifest::{Command, ManifestEntry};
-pub(crate) use self::names::{CERTIFICATE, FRAMES, MOTION, REPORT, is_of_a_run, is_picture};
+pub(crate) use self::names::{
+    CERTIFICATE, FRAMES, MOTION, REPORT, SUBFOLDERS, VTK, is_of_a_run, is_picture, is_vtk_frame,
+};
 pub use self::published::Published;
 pub use self::published::list_names;
 pub(crate) use self::space::Space;
@@ -242,13 +244,16 @@ impl Results {
                 _ => {}
             }
         }
-        let frames = folder.join(FRAMES);
-        if self.written.iter().any(|name| is_picture(name)) {
-            fs::create_dir_all(&frames)
-                .map_err(|e| output_error(&frames, "cannot be created", e))?;
-        } else if stale.iter().any(|name| is_picture(name)) {
-            // The folder is kept if it has other files.
-            let _ = fs::remove_dir(&frames);
+        for subfolder in SUBFOLDERS {
+            let path = folder.join(subfolder);
+            let is_inside = |name: &String| Path::new(name).starts_with(subfolder);
+            if self.written.iter().any(is_inside) {
+                fs::create_dir_all(&path)
+                    .map_err(|e| output_error(&path, "cannot be created", e))?;
+            } else if stale.iter().any(is_inside) {
+                // The folder is kept if it has other files.
+                let _ = fs::remove_dir(&path);
+            }
         }
         let (report, others): (Vec<&String>, Vec<&String>) =
             self.written.iter().partition(|&n| Some(n.as_str()) == self.last);
@@ -316,18 +321,22 @@ impl Results {
 
 /// Whether a name of the manifest is inside the output folder: a manifest must not lead to other folders.
 fn is_inside(name: &str) -> bool {
-    let file = name.strip_prefix("frames/").unwrap_or(name);
+    let mut folders = SUBFOLDERS.iter();
+    let file = folders.find_map(|folder| name.strip_prefix(folder)?.strip_prefix('/'));
+    let file = file.unwrap_or(name);
     !file.contains(['/', '\\']) && !matches!(file, "" | "." | "..")
 }
 
-/// The names of the files in `folder` and its folder of pictures; empty if there is no such folder.
+/// The names of the files in `folder` and its folders of results; empty if there is no such folder.
 pub(crate) fn names_of(folder: &Path) -> Result<Vec<String>, StudyError> {
     let mut names = Vec::new();
     if folder.is_dir() {
         names.extend(names_in(folder, "")?);
     }
-    if folder.join(FRAMES).is_dir() {
-        names.extend(names_in(&folder.join(FRAMES), "frames/")?);
+    for subfolder in SUBFOLDERS {
+        if folder.join(subfolder).is_dir() {
+            names.extend(names_in(&folder.join(subfolder), &format!("{subfolder}/"))?);
+        }
     }
     names.retain(|name| name != MANIFEST);
     names.sort_unstable();

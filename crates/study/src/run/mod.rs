@@ -7,8 +7,7 @@ use std::time::Instant;
 use crate::compute::folded::Folded;
 use crate::compute::timed;
 use crate::report::SecondsReport;
-use crate::results::{Command, Destination, REPORT, Results, is_picture};
-use crate::scene::OutputChoice;
+use crate::results::{Command, Destination, REPORT, Results};
 use crate::{Progress, Report, Study, StudyError};
 
 impl Study {
@@ -75,9 +74,8 @@ impl Study {
         let skipped = results.skip_conflicts();
         let mut report = self.report(folded, seconds, results.written());
         results.write_bytes(REPORT, report.to_json().as_bytes())?;
-        let has_pictures = self.recording.has(OutputChoice::Png);
         report.published = results.publish(Some(&sha256), &|file| {
-            file.of.as_deref() != Some(&sha256) || has_pictures && is_picture(&file.name)
+            file.of.as_deref() != Some(&sha256) || self.recording.replaces(&file.name)
         })?;
         report.published.skipped = skipped;
         Ok(report)

@@ -349,7 +349,7 @@ mod tests {
         let cases = &field("sheet.case").unwrap().choices;
         let names: Vec<_> = cases.iter().map(|(name, _)| name.as_str()).collect();
         assert_eq!(names, ["E", "T", "S", "SII", "plain", "auto"]);
-        assert_eq!(choices("record.outputs.0").len(), 11);
+        assert_eq!(choices("record.outputs.0").len(), 12);
         assert!(choices("sheet.width").is_empty());
         assert!(tip("motion.frames").ends_with("Default: 240."));
         assert_eq!(tip("motion.engine.colour"), "");

@@ -113,11 +113,13 @@ pub enum OutputChoice {
     Stl,
     /// `motion.html`: the motion, its plots, report and certificate as one page for browsers.
     Html,
+    /// `motion.pvd` and `vtk/0001.vtp` and so on: every frame with strain and facet bending, for ParaView and PyVista.
+    Vtk,
 }
 
 impl OutputChoice {
     /// Every output.
-    pub const ALL: [Self; 11] = [
+    pub const ALL: [Self; 12] = [
         Self::Fold,
         Self::Gif,
         Self::Csv,
@@ -129,9 +131,10 @@ impl OutputChoice {
         Self::Obj,
         Self::Stl,
         Self::Html,
+        Self::Vtk,
     ];
 
-    /// The name in scene files, which is also the extension of its files.
+    /// The name in scene files, which is also the extension of its files, except for those of VTK.
     pub fn name(self) -> &'static str {
         match self {
             Self::Fold => "fold",
@@ -145,6 +148,7 @@ impl OutputChoice {
             Self::Obj => "obj",
             Self::Stl => "stl",
             Self::Html => "html",
+            Self::Vtk => "vtk",
         }
     }
 }

@@ -1,9 +1,10 @@
 //! The text of a scene file with its `--set` overrides: parses into a [`Scene`] and knows the line of every key.
 
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use foldmotion_geometry::Number;
-use foldmotion_pattern::ImportError;
+use foldmotion_pattern::{ImportError, LARGEST_IMPORT_FILE};
 use toml::de::{DeTable, DeValue};
 use toml::{Spanned, Table, Value};
 
@@ -20,6 +21,8 @@ pub struct SceneSource {
     path: PathBuf,
     text: String,
     overrides: Vec<Override>,
+    /// The content of the crease pattern, if it is in memory instead of a file.
+    pattern: Option<Arc<[u8]>>,
 }
 
 /// A value from the command line.
@@ -57,7 +60,31 @@ impl SceneSource {
 
     /// A scene from text; errors name `path`, and results its stem.
     pub fn new(path: &Path, text: String) -> Self {
-        Self { path: path.to_owned(), text, overrides: Vec::new() }
+        Self { path: path.to_owned(), text, overrides: Vec::new(), pattern: None }
+    }
+
+    /// A scene that only has `[pattern]` with a crease pattern in memory, which errors and results call `name`.
+    pub fn of_pattern(name: &str, content: Vec<u8>) -> Self {
+        let mut source = Self::new(Path::new(name), String::new());
+        source.set_by_file("pattern.file", name);
+        source.pattern = Some(content.into());
+        source
+    }
+
+    /// The content of the crease pattern at `path`.
+    ///
+    /// # Errors
+    /// [`StudyError::Read`] and [`StudyError::LargeFile`].
+    pub(crate) fn read_pattern(&self, path: &Path) -> Result<Vec<u8>, StudyError> {
+        let limit = LARGEST_IMPORT_FILE as u64;
+        match &self.pattern {
+            Some(content) if content.len() as u64 > limit => {
+                let size = content.len() as u64;
+                Err(StudyError::LargeFile { path: path.to_owned(), size, limit })
+            }
+            Some(content) => Ok(content.to_vec()),
+            None => input_file::read(path, limit),
+        }
     }
 
     /// Adds a `--set key=value`: a dotted key and a TOML value; anything else is a string.
@@ -120,6 +147,18 @@ impl SceneSource {
     /// The text, without its overrides.
     pub fn text(&self) -> &str {
         &self.text
+    }
+
+    /// The text of a scene file for this scene: the text itself or, with overrides, every key that is set.
+    ///
+    /// # Errors
+    /// Those of [`Self::scene`].
+    pub fn to_toml(&self) -> Result<String, StudyError> {
+        if self.overrides.is_empty() {
+            return Ok(self.text.clone());
+        }
+        // A struct of plain values with string keys always serialises.
+        Ok(toml::to_string(&self.scene()?).unwrap_or_default())
     }
 
     /// The path of a file that the scene names, relative to the folder of the scene.
