@@ -189,7 +189,7 @@ fn a_grid_in_the_colour_of_the_border_does_not_cut_the_creases_apart() {
         single + "<path d=\"M20 0V40\" stroke=\"red\"/><path d=\"M0 0L40 40\" stroke=\"blue\"/>";
     let imported = read(&document("", &body));
     let found = ['M', 'V', 'B'].map(|letter| count(&imported, letter));
-    assert_eq!((found, imported.euler_characteristic()), ([2, 2, 4], 1));
+    assert_eq!((found, imported.euler_characteristic()), ([2, 2, 6], 1));
     assert_eq!(warned(&imported, WarningKind::InnerGrid), 10);
 }
 
